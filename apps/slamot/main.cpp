@@ -1,0 +1,89 @@
+#include "Command.h"
+
+#include <slamot/core/Error.h>
+#include <slamot/core/version.h>
+#include <slamot/filters/registerAll.h>
+
+#include <csignal>
+#include <cstdio>
+
+namespace slamot::apps
+{
+std::atomic<bool> interrupted{false};
+
+void CommonOptions::addTo(CLI::App& command)
+{
+  command.add_option("-o,--output", output, "Where results go")->type_name("DIR");
+  command.add_option_function<std::uint64_t>(
+      "--seed", [this](std::uint64_t s) { seed = s, seedGiven = true; },
+      "Seed of all randomness (default 1)")->type_name("N");
+  command.add_option("--threads", threads, "Threads; results do not depend on them")
+      ->check(CLI::Range(1, 1024))->type_name("N");
+  command.add_option("--set", set, "Override a config value; repeatable")
+      ->type_name("Section.key=value")->allow_extra_args(false);
+  command.add_option("-p,--plugin", plugins, "Load filters or classes from a library; repeatable")
+      ->type_name("LIB.so")->allow_extra_args(false);
+  command.add_flag("-q,--quiet", quiet, "Errors only");
+  command.add_flag("-v,--verbose", verbose, "More detail");
+}
+}  // namespace slamot::apps
+
+namespace
+{
+using namespace slamot;
+
+int fail(core::ExitStatus status, const std::string& what)
+{
+  std::string line = what;
+  for (char& c : line)
+    if (c == '\n' || c == '\r') c = ' ';
+  std::fprintf(stderr, "slamot: error: %s\n", line.c_str());
+  return static_cast<int>(status);
+}
+
+int runCommand(int argc, char** argv)
+{
+  CLI::App app{"Simultaneous localization, mapping and object tracking for mobile robots.\n"
+               "Example: slamot run config-ini/rbpf-slamot.experiment1.ini "
+               "share/datasets/experiment1.rawlog",
+               "slamot"};
+  app.set_version_flag("--version", kVersion);
+  app.require_subcommand(1);
+  int status = 0;
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::Success& e)
+  {
+    return app.exit(e);
+  }
+  catch (const CLI::ParseError& e)
+  {
+    return fail(core::ExitStatus::kConfig, std::string("command line: ") + e.what() + "; see slamot --help");
+  }
+  return status;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  std::signal(SIGINT, [](int) { slamot::apps::interrupted = true; });
+  try
+  {
+    slamot::filters::registerAll();
+    return runCommand(argc, argv);
+  }
+  catch (const slamot::core::Error& e)
+  {
+    return fail(e.status(), e.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    return fail(slamot::core::ExitStatus::kLimit, "memory: exhausted; use a smaller input or fewer particles");
+  }
+  catch (const std::exception& e)
+  {
+    return fail(slamot::core::ExitStatus::kInternal, std::string("internal: ") + e.what() + "; please report it");
+  }
+}

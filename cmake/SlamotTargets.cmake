@@ -1,0 +1,37 @@
+# Warnings and sanitizers for the project's own code only: never exported.
+add_library(slamot_private INTERFACE)
+target_compile_options(slamot_private INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  $<$<BOOL:${SLAMOT_WERROR}>:-Werror>)
+if(SLAMOT_SANITIZE)
+  add_compile_options(-fsanitize=${SLAMOT_SANITIZE} -fno-omit-frame-pointer -g)
+  add_link_options(-fsanitize=${SLAMOT_SANITIZE})
+endif()
+
+# slamot_library(NAME SOURCES a.cpp ... [DEPENDS targets ...] [PRIVATE_DEPENDS targets ...])
+# Makes lib slamot-NAME with alias slamot::NAME, headers in include/, installed and exported.
+function(slamot_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(target slamot-${name})
+  add_library(${target} ${ARG_SOURCES})
+  add_library(slamot::${name} ALIAS ${target})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
+    PRIVATE ${ARG_PRIVATE_DEPENDS} $<BUILD_INTERFACE:slamot_private>)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR})
+  install(TARGETS ${target} EXPORT slamot-targets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# slamot_test(NAME SOURCES a_test.cpp ... [DEPENDS targets ...]): one test program, run by CTest.
+function(slamot_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name}-test ${ARG_SOURCES})
+  target_link_libraries(${name}-test PRIVATE ${ARG_DEPENDS} GTest::gtest_main slamot_private)
+  gtest_discover_tests(${name}-test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <slamot/core/Step.h>
+
+#include <functional>
+
+namespace slamot::core
+{
+struct LandmarkEstimate
+{
+  int id = kNoId;  ///< the landmark's identity, or its number in order of confirmation
+  Gaussian<Point2D> position;
+  int sightings = 0;
+};
+
+/// Access to a filter's map without a copy.  Valid until the filter's next step.
+class LandmarkView
+{
+ public:
+  virtual ~LandmarkView() = default;
+  /// Visits the confirmed landmarks in rising order of their ids.
+  virtual void visit(const std::function<void(const LandmarkEstimate&)>& visitor) const = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+};
+
+/// One followed target.
+struct TargetEstimate
+{
+  int id = kNoId;  ///< its identity where the sensor gives one, else the order of confirmation
+  std::string label;
+  bool identified = false;         ///< whether `id` came from the sensor
+  Gaussian<Pose2D> pose;           ///< in map axes; heading from the motion model
+  Vector2 velocity{0, 0};          ///< [m/s], map axes
+  Matrix2 velocityCov = Matrix2::Zero();
+  double lastSeen = 0;             ///< time of the last sighting [s]
+};
+
+/// What a filter believes after a step.
+struct Estimate
+{
+  double time = 0;
+  Gaussian<Pose2D> robot;
+  std::vector<TargetEstimate> targets;        ///< in rising order of ids
+  const LandmarkView* landmarks = nullptr;    ///< null: the filter makes no map
+};
+
+/// What became of one sighting or blob (in particle filters: in the heaviest particle).
+struct Pairing
+{
+  enum class Outcome
+  {
+    kKnown,    ///< paired with a landmark or target that was there
+    kNew,      ///< started one
+    kRejected  ///< neither: ambiguous or implausible
+  };
+  bool isBlob = false;
+  int index = 0;  ///< place in the step's list
+  Outcome outcome = Outcome::kRejected;
+  int id = kNoId;  ///< of the landmark or target
+};
+
+struct Diagnostics
+{
+  std::optional<double> ess;  ///< effective sample size before resampling [particles]
+  int particles = 0;          ///< 0: not a particle filter
+  bool resampled = false;
+};
+
+struct Update
+{
+  Estimate estimate;
+  std::vector<Pairing> pairings;
+  Diagnostics diagnostics;
+};
+
+/// The robot's pose samples, for whoever draws them.
+struct WeightedPose
+{
+  Pose2D pose;
+  double weight = 0;  ///< normalised
+};
+}  // namespace slamot::core

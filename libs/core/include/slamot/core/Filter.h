@@ -1,0 +1,33 @@
+#pragma once
+
+#include <slamot/core/Estimate.h>
+#include <slamot/core/Start.h>
+
+namespace slamot::core
+{
+/// An estimator: the only virtual call into it is process(), once a step.
+class Filter
+{
+ public:
+  virtual ~Filter() = default;
+
+  /// Takes in one step and tells what is believed after it.
+  /// \throws Error (kNonsense) if time goes backwards or a value is not finite; the filter is then
+  /// as before the call.
+  virtual Update process(const Step& step) = 0;
+
+  /// What is believed now; before the first step, the start.
+  [[nodiscard]] virtual Estimate estimate() const = 0;
+
+  /// The pose samples of a particle filter; empty for others.
+  [[nodiscard]] virtual std::vector<WeightedPose> particles() const { return {}; }
+};
+
+/// What a filter is made with, besides its parameters.
+struct FilterContext
+{
+  Starts starts;
+  std::uint64_t seed = 1;
+  int threads = 1;
+};
+}  // namespace slamot::core

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <slamot/core/Config.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slamot::core
+{
+/// One section of a Config, read strictly.  Each reader checks type and range and notes what was
+/// read, so that Config::requireAllRead() finds what nobody knows.  The unit is in the key's name;
+/// a key with `_deg` is in degrees in the file and comes back in radians.
+/// All readers \throw Error (kConfig): missing without default, wrong type, out of range.
+class Params
+{
+ public:
+  /// Makes the section if the config has none, so that defaults hold.
+  Params(Config& config, std::string section);
+
+  double number(const std::string& key, std::optional<double> otherwise = {});
+  double positive(const std::string& key, std::optional<double> otherwise = {});
+  double nonNegative(const std::string& key, std::optional<double> otherwise = {});
+  /// In (0, 1).
+  double probability(const std::string& key, std::optional<double> otherwise = {});
+  /// In [lo, hi]; bounds in the file's unit.
+  double inRange(const std::string& key, double lo, double hi, std::optional<double> otherwise = {});
+  int integer(const std::string& key, int lo, int hi, std::optional<int> otherwise = {});
+  bool flag(const std::string& key, std::optional<bool> otherwise = {});
+  std::string text(const std::string& key, std::optional<std::string> otherwise = {});
+  /// One of `choices`.
+  std::string choice(const std::string& key, const std::vector<std::string>& choices,
+                     std::optional<std::string> otherwise = {});
+  /// Comma-separated; at least one.
+  std::vector<double> numbers(const std::string& key, std::optional<std::string> otherwise = {});
+  std::vector<std::string> list(const std::string& key, std::optional<std::string> otherwise = {});
+  /// Absent if the key is; at least `lo`, in the file's unit.
+  std::optional<double> optionalNumber(const std::string& key,
+                                       double lo = -std::numeric_limits<double>::infinity());
+
+  [[nodiscard]] std::vector<std::string> keys() const;
+  [[nodiscard]] bool has(const std::string& key) const { return config_->has(section_, key); }
+  [[nodiscard]] const std::string& section() const { return section_; }
+  /// For a check that spans several keys.
+  [[noreturn]] void fail(const std::string& key, const std::string& what,
+                         const std::string& mend = {}) const;
+
+ private:
+  std::string read(const std::string& key, const std::optional<std::string>& otherwise,
+                   const std::string& allowed);
+  double readNumber(const std::string& key, double lo, double hi, bool open,
+                    std::optional<double> otherwise);
+
+  Config* config_;
+  std::string section_;
+};
+}  // namespace slamot::core

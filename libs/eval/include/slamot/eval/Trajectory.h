@@ -1,0 +1,28 @@
+#pragma once
+
+#include <slamot/math/geometry.h>
+
+#include <optional>
+#include <vector>
+
+namespace slamot::eval
+{
+/// A pose at a time [s]; `headingKnown` is false where only the place is known.
+struct TimedPose
+{
+  double time = 0;
+  Pose2D pose;
+  bool headingKnown = true;
+};
+
+/// Poses in rising order of time.
+struct Trajectory
+{
+  std::vector<TimedPose> poses;
+
+  /// The pose at a time, linear between neighbours (heading along the shorter turn); none outside
+  /// the span, or within a gap longer than maxGap [s].
+  [[nodiscard]] std::optional<TimedPose> at(double time, double maxGap = 1e9) const;
+  [[nodiscard]] bool empty() const { return poses.empty(); }
+};
+}  // namespace slamot::eval

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <slamot/eval/Trajectory.h>
+
+#include <map>
+
+namespace slamot::eval
+{
+/// Which true landmark a sighting was of; id -1: clutter.
+struct TrueAssociation
+{
+  double time = 0;  ///< [s]
+  int index = 0;    ///< place in that time's list of landmark sightings
+  int id = -1;
+};
+
+/// The ground truth that goes with a log; what is empty is not known.
+struct Truth
+{
+  Trajectory robot;
+  std::map<int, Trajectory> targets;
+  std::map<int, Point2D> landmarks;
+  std::vector<TrueAssociation> associations;  ///< in rising order of (time, index)
+};
+}  // namespace slamot::eval

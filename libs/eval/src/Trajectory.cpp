@@ -1,0 +1,28 @@
+#include <slamot/eval/Trajectory.h>
+
+#include <algorithm>
+
+namespace slamot::eval
+{
+namespace
+{
+// Times come from 100 ns ticks on one side and from text on the other.
+constexpr double kSameTime = 2e-6;
+}  // namespace
+
+std::optional<TimedPose> Trajectory::at(double time, double maxGap) const
+{
+  const auto after = std::lower_bound(poses.begin(), poses.end(), time - kSameTime,
+                                      [](const TimedPose& p, double t) { return p.time < t; });
+  if (after == poses.end()) return std::nullopt;
+  if (after->time <= time + kSameTime) return *after;
+  if (after == poses.begin()) return std::nullopt;
+  const TimedPose &a = *std::prev(after), &b = *after;
+  if (b.time - a.time > maxGap) return std::nullopt;
+  const double f = (time - a.time) / (b.time - a.time);
+  return TimedPose{time,
+                   {a.pose.x + f * (b.pose.x - a.pose.x), a.pose.y + f * (b.pose.y - a.pose.y),
+                    math::wrapToPi(a.pose.phi + f * math::wrapToPi(b.pose.phi - a.pose.phi))},
+                   a.headingKnown && b.headingKnown};
+}
+}  // namespace slamot::eval

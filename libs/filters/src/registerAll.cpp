@@ -1,0 +1,25 @@
+#include <slamot/filters/DeadReckoning.h>
+#include <slamot/filters/registerAll.h>
+
+namespace slamot::filters
+{
+namespace
+{
+template <class F>
+void add(const char* name)
+{
+  core::FilterRegistry::instance().add(name, [](core::Params& p, const core::FilterContext& c) {
+    return std::make_unique<F>(p, c);
+  });
+}
+}  // namespace
+
+void registerAll()
+{
+  static const bool once = [] {
+    add<DeadReckoning>("dead-reckoning");
+    return true;
+  }();
+  (void)once;
+}
+}  // namespace slamot::filters
