@@ -14,15 +14,20 @@ std::atomic<bool> interrupted{false};
 void CommonOptions::addTo(CLI::App& command)
 {
   command.add_option("-o,--output", output, "Where results go")->type_name("DIR");
-  command.add_option_function<std::uint64_t>(
-      "--seed", [this](std::uint64_t s) { seed = s, seedGiven = true; },
-      "Seed of all randomness (default 1)")->type_name("N");
+  command
+      .add_option_function<std::uint64_t>(
+          "--seed", [this](std::uint64_t s) { seed = s, seedGiven = true; },
+          "Seed of all randomness (default 1)")
+      ->type_name("N");
   command.add_option("--threads", threads, "Threads; results do not depend on them")
-      ->check(CLI::Range(1, 1024))->type_name("N");
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   command.add_option("--set", set, "Override a config value; repeatable")
-      ->type_name("Section.key=value")->allow_extra_args(false);
+      ->type_name("Section.key=value")
+      ->allow_extra_args(false);
   command.add_option("-p,--plugin", plugins, "Load filters or classes from a library; repeatable")
-      ->type_name("LIB.so")->allow_extra_args(false);
+      ->type_name("LIB.so")
+      ->allow_extra_args(false);
   command.add_flag("-q,--quiet", quiet, "Errors only");
   command.add_flag("-v,--verbose", verbose, "More detail");
 }
@@ -43,10 +48,11 @@ int fail(core::ExitStatus status, const std::string& what)
 
 int runCommand(int argc, char** argv)
 {
-  CLI::App app{"Simultaneous localization, mapping and object tracking for mobile robots.\n"
-               "Example: slamot run config-ini/rbpf-slamot.experiment1.ini "
-               "share/datasets/experiment1.rawlog",
-               "slamot"};
+  CLI::App app{
+      "Simultaneous localization, mapping and object tracking for mobile robots.\n"
+      "Example: slamot run config-ini/rbpf-slamot.experiment1.ini "
+      "share/datasets/experiment1.rawlog",
+      "slamot"};
   app.set_version_flag("--version", kVersion);
   app.require_subcommand(1);
   int status = 0;
@@ -60,7 +66,8 @@ int runCommand(int argc, char** argv)
   }
   catch (const CLI::ParseError& e)
   {
-    return fail(core::ExitStatus::kConfig, std::string("command line: ") + e.what() + "; see slamot --help");
+    return fail(core::ExitStatus::kConfig,
+                std::string("command line: ") + e.what() + "; see slamot --help");
   }
   return status;
 }
@@ -80,10 +87,12 @@ int main(int argc, char** argv)
   }
   catch (const std::bad_alloc&)
   {
-    return fail(slamot::core::ExitStatus::kLimit, "memory: exhausted; use a smaller input or fewer particles");
+    return fail(slamot::core::ExitStatus::kLimit,
+                "memory: exhausted; use a smaller input or fewer particles");
   }
   catch (const std::exception& e)
   {
-    return fail(slamot::core::ExitStatus::kInternal, std::string("internal: ") + e.what() + "; please report it");
+    return fail(slamot::core::ExitStatus::kInternal,
+                std::string("internal: ") + e.what() + "; please report it");
   }
 }

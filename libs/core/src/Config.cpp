@@ -79,7 +79,8 @@ Config Config::load(const std::string& path)
   std::string text(kLargestIni + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
-  if (file.bad() || (text.empty() && !file.eof())) fail(path, "can't be read", "give the path of an ini file");
+  if (file.bad() || (text.empty() && !file.eof()))
+    fail(path, "can't be read", "give the path of an ini file");
   if (text.size() > kLargestIni) fail(path, "is over 4 MB", "give the path of an ini file");
   return parse(text, path.substr(path.find_last_of('/') + 1));
 }
@@ -107,7 +108,8 @@ Config Config::parse(const std::string& text, const std::string& name)
       continue;
     }
     const auto equals = line.find('=');
-    if (equals == std::string::npos) fail(where, "'" + line + "' is no key = value", "mend the line");
+    if (equals == std::string::npos)
+      fail(where, "'" + line + "' is no key = value", "mend the line");
     if (section.empty()) fail(where, "a key outside any section", "put it under a [section]");
     const std::string key = trim(line.substr(0, equals));
     if (key.empty()) fail(where, "a value without a key", "write key = value");

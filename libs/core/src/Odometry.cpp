@@ -19,7 +19,8 @@ OdometryModel OdometryModel::from(Params& p)
 Gaussian<Pose2D> OdometryModel::apply(const Gaussian<Pose2D>& increment, double dt) const
 {
   if (fromLog || dt <= 0) return increment;
-  const double v = std::copysign(std::hypot(increment.mean.x, increment.mean.y), increment.mean.x) / dt;
+  const double v =
+      std::copysign(std::hypot(increment.mean.x, increment.mean.y), increment.mean.x) / dt;
   const double omega = increment.mean.phi / dt;
   Gaussian<Pose2D> out = math::turnThenMove(v, omega, dt, std::hypot(vStd, vScaleStd * v),
                                             std::hypot(omegaStd, omegaScaleStd * omega));

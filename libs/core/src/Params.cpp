@@ -41,7 +41,8 @@ std::string range(double lo, double hi, bool open)
 bool inDegrees(const std::string& key)
 {
   const auto at = key.find("_deg");
-  return at != std::string::npos && (at + 4 == key.size() || key[at + 4] == '_' || key[at + 4] == 'p');
+  return at != std::string::npos &&
+         (at + 4 == key.size() || key[at + 4] == '_' || key[at + 4] == 'p');
 }
 
 std::vector<std::string> split(const std::string& text)
@@ -120,7 +121,8 @@ double Params::probability(const std::string& key, std::optional<double> otherwi
 {
   return readNumber(key, 0, 1, true, otherwise);
 }
-double Params::inRange(const std::string& key, double lo, double hi, std::optional<double> otherwise)
+double Params::inRange(const std::string& key, double lo, double hi,
+                       std::optional<double> otherwise)
 {
   return readNumber(key, lo, hi, false, otherwise);
 }

@@ -27,7 +27,8 @@ std::optional<ObjectStart> readObject(Params& p, const std::string& object)
 
 void writeObject(std::string& text, const std::string& object, const ObjectStart& start)
 {
-  const auto write = [&](const std::string& key, const std::optional<double>& v) {
+  const auto write = [&](const std::string& key, const std::optional<double>& v)
+  {
     if (!v) return;
     char line[128];
     std::snprintf(line, sizeof line, "%s_%s = %.17g\n", object.c_str(), key.c_str(), *v);

@@ -27,7 +27,10 @@ void checkOdometry(const Step& step)
 }
 
 // Positive and finite: a NaN fails every comparison.
-bool good(double std) { return std > 0 && std < 1e9; }
+bool good(double std)
+{
+  return std > 0 && std < 1e9;
+}
 }  // namespace
 
 void checkStep(const Step& step, double lastTime)
@@ -39,7 +42,8 @@ void checkStep(const Step& step, double lastTime)
   if (step.odometry) checkOdometry(step);
   if (step.landmarks)
     for (const Sighting& s : step.landmarks->sightings)
-      if (!std::isfinite(s.range + s.bearing) || s.range <= 0 || !good(s.rangeStd) || !good(s.bearingStd))
+      if (!std::isfinite(s.range + s.bearing) || s.range <= 0 || !good(s.rangeStd) ||
+          !good(s.bearingStd))
         fail(step.time, "a landmark sighting has a value that makes no sense", "mend the log");
   if (step.blobs)
     for (const Blob& b : step.blobs->blobs)

@@ -8,15 +8,15 @@ namespace
 template <class F>
 void add(const char* name)
 {
-  core::FilterRegistry::instance().add(name, [](core::Params& p, const core::FilterContext& c) {
-    return std::make_unique<F>(p, c);
-  });
+  core::FilterRegistry::instance().add(name, [](core::Params& p, const core::FilterContext& c)
+                                       { return std::make_unique<F>(p, c); });
 }
 }  // namespace
 
 void registerAll()
 {
-  static const bool once = [] {
+  static const bool once = []
+  {
     add<DeadReckoning>("dead-reckoning");
     return true;
   }();

@@ -31,8 +31,8 @@ class Config
   void addMissingSections(const Config& other);
   void erase(const std::string& section) { sections_.erase(section); }
 
-  /// \throws Error (kConfig): a section or key that nobody read, with the nearest that was asked for.
-  /// Sections in `ignored` are not looked at.
+  /// \throws Error (kConfig): a section or key that nobody read, with the nearest that was asked
+  /// for. Sections in `ignored` are not looked at.
   void requireAllRead(const std::vector<std::string>& ignored = {}) const;
 
   /// What was read, defaults included, as an ini text that repeats the run.
@@ -48,7 +48,7 @@ class Config
   struct Section
   {
     std::map<std::string, Entry> entries;
-    std::vector<std::string> asked;                // keys that readers know, also absent ones
+    std::vector<std::string> asked;  // keys that readers know, also absent ones
     std::vector<std::string> effectiveOrder;
     std::map<std::string, std::string> effective;  // as read, or the default
   };
@@ -56,6 +56,6 @@ class Config
 
   std::string name_ = "config";
   std::map<std::string, Section> sections_;
-  std::vector<std::string> order_;                 // sections in order of reading
+  std::vector<std::string> order_;  // sections in order of reading
 };
 }  // namespace slamot::core

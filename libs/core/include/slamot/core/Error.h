@@ -9,12 +9,12 @@ namespace slamot::core
 enum class ExitStatus
 {
   kDone = 0,
-  kConfig = 1,       ///< a usage or configuration error
-  kUnreadable = 2,   ///< input that can't be read
-  kTruncated = 3,    ///< input that ends too early
-  kNonsense = 4,     ///< values in the input that make no sense
-  kLimit = 5,        ///< a limit on size or time exceeded
-  kInternal = 6,     ///< a defect of the program
+  kConfig = 1,      ///< a usage or configuration error
+  kUnreadable = 2,  ///< input that can't be read
+  kTruncated = 3,   ///< input that ends too early
+  kNonsense = 4,    ///< values in the input that make no sense
+  kLimit = 5,       ///< a limit on size or time exceeded
+  kInternal = 6,    ///< a defect of the program
   kInterrupted = 130
 };
 
@@ -25,8 +25,7 @@ class Error : public std::runtime_error
  public:
   Error(ExitStatus status, const std::string& where, const std::string& what,
         const std::string& mend = {})
-      : std::runtime_error(where + ": " + what + (mend.empty() ? "" : "; " + mend)),
-        status_(status)
+      : std::runtime_error(where + ": " + what + (mend.empty() ? "" : "; " + mend)), status_(status)
   {
   }
   [[nodiscard]] ExitStatus status() const { return status_; }

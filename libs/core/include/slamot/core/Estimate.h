@@ -28,11 +28,11 @@ struct TargetEstimate
 {
   int id = kNoId;  ///< its identity where the sensor gives one, else the order of confirmation
   std::string label;
-  bool identified = false;         ///< whether `id` came from the sensor
-  Gaussian<Pose2D> pose;           ///< in map axes; heading from the motion model
-  Vector2 velocity{0, 0};          ///< [m/s], map axes
+  bool identified = false;  ///< whether `id` came from the sensor
+  Gaussian<Pose2D> pose;    ///< in map axes; heading from the motion model
+  Vector2 velocity{0, 0};   ///< [m/s], map axes
   Matrix2 velocityCov = Matrix2::Zero();
-  double lastSeen = 0;             ///< time of the last sighting [s]
+  double lastSeen = 0;  ///< time of the last sighting [s]
 };
 
 /// What a filter believes after a step.
@@ -40,8 +40,8 @@ struct Estimate
 {
   double time = 0;
   Gaussian<Pose2D> robot;
-  std::vector<TargetEstimate> targets;        ///< in rising order of ids
-  const LandmarkView* landmarks = nullptr;    ///< null: the filter makes no map
+  std::vector<TargetEstimate> targets;      ///< in rising order of ids
+  const LandmarkView* landmarks = nullptr;  ///< null: the filter makes no map
 };
 
 /// What became of one sighting or blob (in particle filters: in the heaviest particle).

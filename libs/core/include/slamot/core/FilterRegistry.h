@@ -38,14 +38,14 @@ class FilterRegistry
 }  // namespace slamot::core
 
 /// In a plugin's .cpp, at global scope: `class` is made by (Params&, const FilterContext&).
-#define SLAMOT_REGISTER_FILTER(name, class)                                              \
-  namespace                                                                              \
-  {                                                                                      \
-  const bool slamotRegistered = [] {                                                     \
-    ::slamot::core::FilterRegistry::instance().add(                                      \
-        name, [](::slamot::core::Params& p, const ::slamot::core::FilterContext& c) {    \
-          return std::make_unique<class>(p, c);                                          \
-        });                                                                              \
-    return true;                                                                         \
-  }();                                                                                   \
+#define SLAMOT_REGISTER_FILTER(name, class)                                         \
+  namespace                                                                         \
+  {                                                                                 \
+  const bool slamotRegistered = []                                                  \
+  {                                                                                 \
+    ::slamot::core::FilterRegistry::instance().add(                                 \
+        name, [](::slamot::core::Params& p, const ::slamot::core::FilterContext& c) \
+        { return std::make_unique<class>(p, c); });                                 \
+    return true;                                                                    \
+  }();                                                                              \
   }

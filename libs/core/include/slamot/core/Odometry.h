@@ -10,8 +10,8 @@ namespace slamot::core
 struct OdometryModel
 {
   bool fromLog = true;
-  double vStd = 0;      ///< [m/s]
-  double omegaStd = 0;  ///< [rad/s]
+  double vStd = 0;           ///< [m/s]
+  double omegaStd = 0;       ///< [rad/s]
   double vScaleStd = 0;      ///< part of the speed
   double omegaScaleStd = 0;  ///< part of the turn rate
 

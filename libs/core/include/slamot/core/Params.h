@@ -25,7 +25,8 @@ class Params
   /// In (0, 1).
   double probability(const std::string& key, std::optional<double> otherwise = {});
   /// In [lo, hi]; bounds in the file's unit.
-  double inRange(const std::string& key, double lo, double hi, std::optional<double> otherwise = {});
+  double inRange(const std::string& key, double lo, double hi,
+                 std::optional<double> otherwise = {});
   int integer(const std::string& key, int lo, int hi, std::optional<int> otherwise = {});
   bool flag(const std::string& key, std::optional<bool> otherwise = {});
   std::string text(const std::string& key, std::optional<std::string> otherwise = {});

@@ -12,12 +12,28 @@ namespace slamot::core
 /// What is known of one object's start, in the map frame; what is absent is unknown.
 struct ObjectStart
 {
-  enum Field { kX, kY, kTheta, kVx, kVy, kAx, kAy, kCount };
+  enum Field
+  {
+    kX,
+    kY,
+    kTheta,
+    kVx,
+    kVy,
+    kAx,
+    kAy,
+    kCount
+  };
   std::array<std::optional<double>, kCount> value;  ///< [m, m, rad, m/s, m/s, m/s², m/s²]
   std::array<std::optional<double>, kCount> std;    ///< their standard deviations
 
-  [[nodiscard]] double get(Field f, double otherwise = 0) const { return value[f].value_or(otherwise); }
-  [[nodiscard]] double getStd(Field f, double otherwise = 0) const { return std[f].value_or(otherwise); }
+  [[nodiscard]] double get(Field f, double otherwise = 0) const
+  {
+    return value[f].value_or(otherwise);
+  }
+  [[nodiscard]] double getStd(Field f, double otherwise = 0) const
+  {
+    return std[f].value_or(otherwise);
+  }
 
   /// Pose with deviations; what is absent is zero, exactly.
   [[nodiscard]] Gaussian<Pose2D> pose() const;
@@ -33,9 +49,13 @@ struct Starts
   std::map<int, ObjectStart> targets;
 
   /// The robot's start; without one, the origin, exactly.
-  [[nodiscard]] Gaussian<Pose2D> robotPose() const { return robot ? robot->pose() : Gaussian<Pose2D>{}; }
+  [[nodiscard]] Gaussian<Pose2D> robotPose() const
+  {
+    return robot ? robot->pose() : Gaussian<Pose2D>{};
+  }
 
-  /// Reads [start]; empty if there is none.  \throws Error (kConfig) on a key or value that is wrong.
+  /// Reads [start]; empty if there is none.  \throws Error (kConfig) on a key or value that is
+  /// wrong.
   static Starts from(Config& config);
   /// The section's text, which from() reads back without loss.
   [[nodiscard]] std::string toIni() const;

@@ -14,13 +14,12 @@ inline constexpr int kNoId = -1;  ///< the sensor can't tell which one it saw
 /// Where a sensor can see, in its robot's frame.  Bearings are positive to the left.
 struct FieldOfView
 {
-  double rangeMin = 0, rangeMax = 1e6;                    ///< [m]
+  double rangeMin = 0, rangeMax = 1e6;                     ///< [m]
   double bearingMin = -math::kPi, bearingMax = math::kPi;  ///< [rad]
 
   [[nodiscard]] bool contains(double range, double bearing) const
   {
-    return range >= rangeMin && range <= rangeMax && bearing >= bearingMin &&
-           bearing <= bearingMax;
+    return range >= rangeMin && range <= rangeMax && bearing >= bearingMin && bearing <= bearingMax;
   }
 };
 

@@ -32,7 +32,8 @@ class Sink
 
 struct RunOptions
 {
-  const std::atomic<bool>* stop = nullptr;  ///< ends the run at a step's boundary when it turns true
+  const std::atomic<bool>* stop =
+      nullptr;  ///< ends the run at a step's boundary when it turns true
   std::function<void(std::size_t steps, double progress)> onProgress;
 };
 

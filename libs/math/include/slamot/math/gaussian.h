@@ -18,8 +18,7 @@ template <class S>
 struct Gaussian
 {
   S mean{};
-  Eigen::Matrix<double, kDim<S>, kDim<S>> cov =
-      Eigen::Matrix<double, kDim<S>, kDim<S>>::Zero();
+  Eigen::Matrix<double, kDim<S>, kDim<S>> cov = Eigen::Matrix<double, kDim<S>, kDim<S>>::Zero();
 };
 }  // namespace slamot
 

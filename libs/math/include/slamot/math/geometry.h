@@ -31,8 +31,14 @@ inline constexpr double kTwoPi = 2.0 * kPi;
   return wrapped <= -kPi ? wrapped + kTwoPi : wrapped;
 }
 
-[[nodiscard]] constexpr double degToRad(double degrees) { return degrees * (kPi / 180.0); }
-[[nodiscard]] constexpr double radToDeg(double radians) { return radians * (180.0 / kPi); }
+[[nodiscard]] constexpr double degToRad(double degrees)
+{
+  return degrees * (kPi / 180.0);
+}
+[[nodiscard]] constexpr double radToDeg(double radians)
+{
+  return radians * (180.0 / kPi);
+}
 
 /// pose_a_c from pose_a_b and pose_b_c: the frame c, given in b, expressed in a.
 [[nodiscard]] inline Pose2D compose(const Pose2D& a, const Pose2D& b)

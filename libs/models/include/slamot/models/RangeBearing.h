@@ -7,8 +7,8 @@
 
 namespace slamot::models
 {
-/// Range [m] and bearing [rad] from a robot's pose to a point; the bearing from the robot's heading,
-/// positive to the left.  Thrun, Burgard, Fox, Probabilistic Robotics, 2005, section 6.6.
+/// Range [m] and bearing [rad] from a robot's pose to a point; the bearing from the robot's
+/// heading, positive to the left.  Thrun, Burgard, Fox, Probabilistic Robotics, 2005, section 6.6.
 class RangeBearing
 {
  public:

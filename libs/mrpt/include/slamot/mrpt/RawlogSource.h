@@ -1,7 +1,7 @@
 #pragma once
 
-#include <slamot/core/run.h>
 #include <slamot/core/Odometry.h>
+#include <slamot/core/run.h>
 
 #include <memory>
 #include <string>
