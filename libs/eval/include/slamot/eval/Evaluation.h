@@ -1,0 +1,121 @@
+#pragma once
+
+#include <slamot/eval/Gospa.h>
+#include <slamot/eval/Record.h>
+#include <slamot/eval/Truth.h>
+
+namespace slamot::eval
+{
+/// How the map's frame is laid over the truth's before errors are taken; never scaled.
+enum class Align
+{
+  kNone,
+  kFirstPose,  ///< the first pose with truth agrees exactly
+  kRigid       ///< least squares over all positions of the robot
+};
+
+/// Error of one estimated pose.
+struct StepError
+{
+  std::size_t row = 0;                 ///< place in Record::rows
+  Vector3 error{0, 0, 0};              ///< estimate less truth, in the truth's axes [m, m, rad]
+  bool headingKnown = false;           ///< else error[2] is 0 and means nothing
+  std::optional<double> nees;          ///< eᵀP⁻¹e over (x, y, heading); none if P is singular
+  std::optional<double> neesPosition;  ///< the same over (x, y)
+};
+
+/// Errors over a set of steps; absent where no step had what it needs.
+struct ErrorSummary
+{
+  int count = 0;                           ///< steps with truth
+  std::optional<double> positionMean;      ///< [m]
+  std::optional<double> positionRmse;      ///< [m]
+  std::optional<double> headingRmse;       ///< [rad]
+  std::optional<double> neesMean;          ///< 3 degrees of freedom
+  std::optional<double> neesPositionMean;  ///< 2 degrees of freedom
+  std::optional<double> coverage95;        ///< share of steps inside the 95% ellipse of position
+  int neesSkipped =
+      0;  ///< steps left out of the last two: covariance singular, as of an exact start
+};
+
+struct RobotEvaluation
+{
+  std::vector<StepError> steps;
+  ErrorSummary all, atScans;
+};
+
+/// Errors in the common frame of steps whose target was last seen `from` to `to` seconds before.
+struct SinceSeen
+{
+  double from = 0, to = 0;  ///< [s]: from <= age < to
+  ErrorSummary errors;
+};
+
+struct TargetEvaluation
+{
+  int id = core::kNoId;          ///< of the track; of the truth in Evaluation::trueTargets
+  std::optional<int> truthId;    ///< none: no true target is near, or its identity has no truth
+  std::vector<StepError> steps;  ///< in the common frame
+  ErrorSummary all, atScans, atSightings;
+  /// In the observer's frame, at steps with a sighting: free of the robot's own error; no NEES.
+  ErrorSummary relativeAtSightings;
+  std::vector<SinceSeen> sinceSeen;
+  std::optional<double> trackedFraction;  ///< of the rows with truth, those that have an estimate
+};
+
+struct LandmarkMatch
+{
+  std::size_t index = 0;  ///< place in Record::landmarks
+  int truthId = 0;
+  double error = 0;            ///< [m]
+  std::optional<double> nees;  ///< 2 degrees of freedom
+};
+
+struct LandmarkEvaluation
+{
+  std::vector<LandmarkMatch> matches;
+  std::optional<int> mapped;    ///< landmarks of the map; none: the filter makes no map
+  std::optional<int> trueOnes;  ///< those that stand for a true one; the rest is false
+  std::optional<double> rmse;   ///< [m], over the matches
+  std::optional<double> neesMean;
+  std::optional<Gospa> gospa;
+};
+
+/// Landmark sightings by what became of them.
+struct AssociationCounts
+{
+  std::optional<int> correct, wrong;  ///< paired with a landmark; none without truth
+  int created = 0, rejected = 0;
+};
+
+struct Evaluation
+{
+  Align align = Align::kNone;
+  Pose2D truthFromMap;  ///< takes the map's frame to the truth's
+  RobotEvaluation robot;
+  /// One for each track, then, under their own free ids, the true targets that no track stands for.
+  std::vector<TargetEvaluation> targets;
+  /// One for each true target, over all tracks that stand for it; `id` is the truth's.
+  std::vector<TargetEvaluation> trueTargets;
+  LandmarkEvaluation landmarks;
+  std::optional<AssociationCounts> association;  ///< none: the filter pairs nothing
+};
+
+struct EvaluationOptions
+{
+  Align align = Align::kNone;
+  double landmarkCutoff = 1.0;  ///< a landmark farther than this from any true one is false [m]
+  double gospaCutoff = 1.0;     ///< GOSPA's c [m]
+  double targetCutoff = 2.0;    ///< a track whose median error is larger stands for no target [m]
+  double maxTruthGap = 2.0;     ///< truth is interpolated over gaps up to this [s]
+  std::vector<double> sinceSeenEdges = {0, 1, 3, 10, 30, 1e9};  ///< [s]
+};
+
+/// Errors and consistency of a run.  What has no truth is absent; nothing is ever NaN.
+[[nodiscard]] Evaluation evaluate(const Record& record, const Truth& truth,
+                                  const EvaluationOptions& options);
+
+/// The same with a known alignment, as of several robots together.
+[[nodiscard]] Evaluation evaluate(const Record& record, const Truth& truth,
+                                  const EvaluationOptions& options, const Pose2D& truthFromMap);
+}  // namespace slamot::eval

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <slamot/math/geometry.h>
+
+#include <utility>
+#include <vector>
+
+namespace slamot::eval
+{
+/// Generalised optimal sub-pattern assignment metric with alpha = 2 and p = 2.  Rahmathullah,
+/// García-Fernández, Svensson, "Generalized optimal sub-pattern assignment metric", 2017, prop. 1.
+struct Gospa
+{
+  double total = 0;         ///< [m]: sqrt of the sum of the three
+  double localisation = 0;  ///< [m²]: squared distances of the pairs
+  double missed = 0;        ///< [m²]: c²/2 for each true point without an estimate
+  double falseOnes = 0;     ///< [m²]: c²/2 for each estimate without a true point
+  /// Places in (estimates, truths), in rising order of the first; no pair is c or more apart.
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+};
+
+/// \param c cut-off [m], > 0.
+[[nodiscard]] Gospa gospa(const std::vector<Point2D>& estimates, const std::vector<Point2D>& truths,
+                          double c);
+
+/// Optimal sub-pattern assignment metric [m] of order 2; 0 for two empty sets, c if just one is.
+/// Schuhmacher, Vo, Vo, "A consistent metric for performance evaluation of multi-object filters",
+/// 2008, eq. 3.  \param c cut-off [m], > 0.
+[[nodiscard]] double ospa(const std::vector<Point2D>& estimates, const std::vector<Point2D>& truths,
+                          double c);
+}  // namespace slamot::eval

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <slamot/core/Estimate.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slamot::eval
+{
+/// The robot at one instant: the start, or an odometry step after its update.  Times rise strictly;
+/// of several beliefs about one instant the last counts.
+struct RobotRow
+{
+  double time = 0;         ///< [s], the log's own clock
+  Gaussian<Pose2D> robot;  ///< in map axes
+  Pose2D odometry;         ///< odometry alone, summed up from the start
+  bool scan = false;       ///< whether landmarks or blobs were looked for since the row before
+};
+
+/// A target at the instant of a row.
+struct TargetRow
+{
+  std::size_t row = 0;     ///< place in Record::rows
+  Gaussian<Pose2D> pose;   ///< in map axes
+  Vector2 velocity{0, 0};  ///< [m/s], map axes
+  double lastSeen = 0;     ///< time of the last sighting [s]
+};
+
+/// One target from its start to its loss; a gap in the rows is a loss and a return.
+struct TargetTrack
+{
+  int id = core::kNoId;  ///< its identity, or its number in order of confirmation
+  std::string label;
+  bool identified = false;  ///< whether `id` came from the sensor
+  std::vector<TargetRow> rows;
+};
+
+/// What became of one sighting or blob.
+struct PairingRow
+{
+  double time = 0;  ///< [s]
+  core::Pairing pairing;
+  int seenId = core::kNoId;  ///< the identity that the sensor gave, if any
+};
+
+/// One step's diagnostics; unlike rows, there is one for every step.
+struct StepRow
+{
+  double time = 0;
+  std::optional<double> ess;  ///< effective sample size before resampling [particles]
+  bool resampled = false;
+  int known = 0, created = 0, rejected = 0;  ///< sightings and blobs by outcome
+  int dropped = 0;                           ///< left out by the source
+};
+
+/// A laser scan and where it was taken; kept only when the robot has moved on.
+struct LaserRow
+{
+  std::size_t row = 0;  ///< place in Record::rows of the pose to draw it from
+  std::shared_ptr<const core::LaserScan> scan;
+};
+
+/// All of a run that results, reports and evaluations are made from.
+struct Record
+{
+  std::vector<RobotRow> rows;
+  std::vector<TargetTrack> targets;               ///< in rising order of (identified first, id)
+  bool hasMap = false;                            ///< whether the filter makes a map at all
+  std::vector<core::LandmarkEstimate> landmarks;  ///< confirmed ones, at the end
+  std::vector<PairingRow> pairings;
+  std::vector<StepRow> steps;
+  std::vector<LaserRow> lasers;  ///< empty unless asked for
+  std::size_t observations = 0;  ///< sightings, blobs and laser scans taken in
+  int particles = 0;             ///< 0: not a particle filter
+  bool complete = false;         ///< false: interrupted, or the input ended too early
+
+  /// Whether landmarks carry the sensor's identities: all sightings with one were paired by it.
+  [[nodiscard]] bool landmarksIdentified() const;
+};
+}  // namespace slamot::eval

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <slamot/core/run.h>
+#include <slamot/eval/Record.h>
+
+#include <map>
+
+namespace slamot::eval
+{
+/// Makes the record of a run, in memory.
+class Recorder : public core::Sink
+{
+ public:
+  struct Options
+  {
+    bool keepLasers = false;  ///< keep scans, one for each 0.1 m or 5 degrees of motion
+  };
+
+  /// \param filter the one being run: its map is asked for once, at the end.
+  explicit Recorder(const core::Filter& filter, const Options& options);
+  explicit Recorder(const core::Filter& filter) : Recorder(filter, Options{}) {}
+
+  void begin(const core::Estimate& start) override;
+  void accept(const core::Step& step, const core::Update& update) override;
+  void finish(bool complete) override;
+
+  /// Whole once the run has finished.
+  [[nodiscard]] const Record& record() const { return record_; }
+
+ private:
+  void addRow(const core::Estimate& estimate);
+  void addTargets(const core::Estimate& estimate);
+  void addPairings(const core::Step& step, const core::Update& update);
+  void addLasers(const core::Step& step);
+
+  const core::Filter* filter_;
+  Options options_;
+  Record record_;
+  Pose2D odometry_;
+  bool scanPending_ = false;
+  std::map<std::pair<bool, int>, TargetTrack> tracks_;  // by (not identified, id)
+};
+}  // namespace slamot::eval
