@@ -111,7 +111,8 @@ struct EvaluationOptions
   std::vector<double> sinceSeenEdges = {0, 1, 3, 10, 30, 1e9};  ///< [s]
 };
 
-/// Errors and consistency of a run.  What has no truth is absent; nothing is ever NaN.
+/// Errors and consistency of a run.  What has no truth is absent; nothing is ever NaN.  Where the
+/// truth does not allow the alignment asked for, none is made, and the result's `align` says so.
 [[nodiscard]] Evaluation evaluate(const Record& record, const Truth& truth,
                                   const EvaluationOptions& options);
 

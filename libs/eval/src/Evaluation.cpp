@@ -1,0 +1,59 @@
+#include <slamot/eval/Alignment.h>
+#include <slamot/eval/Evaluation.h>
+
+#include <algorithm>
+
+#include "poseErrors.h"
+
+namespace slamot::eval
+{
+namespace
+{
+RobotEvaluation evaluateRobot(const Record& record, const Truth& truth,
+                              const EvaluationOptions& options, const Pose2D& truthFromMap)
+{
+  RobotEvaluation out;
+  for (std::size_t i = 0; i < record.rows.size(); ++i)
+    if (const auto t = truth.robot.at(record.rows[i].time, options.maxTruthGap))
+      out.steps.push_back(poseError(i, record.rows[i].robot, *t, truthFromMap));
+  out.all = summarise(out.steps);
+  out.atScans = summarise(out.steps, [&](const StepError& s) { return record.rows[s.row].scan; });
+  return out;
+}
+
+/// True targets that no track stands for, where no track has taken their id.
+void addMissed(Evaluation& evaluation)
+{
+  const auto tracks = evaluation.targets;
+  for (const TargetEvaluation& truth : evaluation.trueTargets)
+    if (std::none_of(tracks.begin(), tracks.end(),
+                     [&](const TargetEvaluation& t)
+                     { return t.truthId == truth.id || t.id == truth.id; }))
+      evaluation.targets.push_back(truth);
+}
+}  // namespace
+
+Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOptions& options,
+                    const Pose2D& truthFromMap)
+{
+  Evaluation out;
+  out.align = options.align;
+  out.truthFromMap = truthFromMap;
+  out.robot = evaluateRobot(record, truth, options, truthFromMap);
+  out.targets = evaluateTracks(record, truth, options, truthFromMap);
+  out.trueTargets = evaluateTrueTargets(record, truth, options, truthFromMap, out.targets);
+  addMissed(out);
+  out.landmarks = evaluateLandmarks(record, truth, options, truthFromMap);
+  out.association = countAssociations(record, truth);
+  return out;
+}
+
+Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOptions& options)
+{
+  const auto truthFromMap = alignment({{&record, &truth}}, options.align, options.maxTruthGap);
+  if (truthFromMap) return evaluate(record, truth, options, *truthFromMap);
+  EvaluationOptions unaligned = options;
+  unaligned.align = Align::kNone;
+  return evaluate(record, truth, unaligned, Pose2D());
+}
+}  // namespace slamot::eval

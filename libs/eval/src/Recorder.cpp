@@ -1,0 +1,144 @@
+#include <slamot/eval/Recorder.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace slamot::eval
+{
+namespace
+{
+constexpr double kLaserDistance = 0.1;              // [m]
+constexpr double kLaserTurn = math::degToRad(5.0);  // [rad]
+
+StepRow diagnosticsOf(const core::Step& step, const core::Update& update)
+{
+  StepRow out;
+  out.time = step.time;
+  out.ess = update.diagnostics.ess;
+  out.resampled = update.diagnostics.resampled;
+  out.dropped = step.dropped;
+  for (const core::Pairing& p : update.pairings)
+  {
+    if (p.outcome == core::Pairing::Outcome::kKnown) ++out.known;
+    if (p.outcome == core::Pairing::Outcome::kNew) ++out.created;
+    if (p.outcome == core::Pairing::Outcome::kRejected) ++out.rejected;
+  }
+  return out;
+}
+
+template <class List>
+int idAt(const List& list, int index)
+{
+  if (index < 0 || static_cast<std::size_t>(index) >= list.size()) return core::kNoId;
+  return list[static_cast<std::size_t>(index)].id;
+}
+
+int seenId(const core::Step& step, const core::Pairing& p)
+{
+  if (p.isBlob) return step.blobs ? idAt(step.blobs->blobs, p.index) : core::kNoId;
+  return step.landmarks ? idAt(step.landmarks->sightings, p.index) : core::kNoId;
+}
+
+std::size_t observationsOf(const core::Step& step)
+{
+  return (step.landmarks ? step.landmarks->sightings.size() : 0) +
+         (step.blobs ? step.blobs->blobs.size() : 0) + step.lasers.size();
+}
+}  // namespace
+
+bool Record::landmarksIdentified() const
+{
+  bool any = false;
+  for (const PairingRow& p : pairings)
+  {
+    if (p.pairing.isBlob || p.pairing.outcome == core::Pairing::Outcome::kRejected) continue;
+    if (p.seenId == core::kNoId || p.seenId != p.pairing.id) return false;
+    any = true;
+  }
+  return any;
+}
+
+Recorder::Recorder(const core::Filter& filter, const Options& options)
+    : filter_(&filter), options_(options)
+{
+}
+
+void Recorder::begin(const core::Estimate& start)
+{
+  odometry_ = start.robot.mean;
+  // A start whose time nobody knows is no instant of the log.
+  if (std::isfinite(start.time)) addRow(start);
+}
+
+void Recorder::accept(const core::Step& step, const core::Update& update)
+{
+  if (step.odometry) odometry_ = math::compose(odometry_, step.odometry->mean);
+  scanPending_ = scanPending_ || step.landmarks || step.blobs;
+  record_.observations += observationsOf(step);
+  record_.particles = std::max(record_.particles, update.diagnostics.particles);
+  record_.steps.push_back(diagnosticsOf(step, update));
+  addPairings(step, update);
+  const bool sameInstant = !record_.rows.empty() && record_.rows.back().time >= step.time;
+  if (step.odometry || sameInstant) addRow(update.estimate);
+  addLasers(step);
+}
+
+void Recorder::addRow(const core::Estimate& estimate)
+{
+  if (!record_.rows.empty() && record_.rows.back().time >= estimate.time)
+  {
+    // The later belief about one instant replaces the earlier.
+    scanPending_ = scanPending_ || record_.rows.back().scan;
+    record_.rows.pop_back();
+    for (auto& [_, track] : tracks_)
+      if (!track.rows.empty() && track.rows.back().row == record_.rows.size())
+        track.rows.pop_back();
+  }
+  record_.rows.push_back({estimate.time, estimate.robot, odometry_, scanPending_});
+  scanPending_ = false;
+  addTargets(estimate);
+}
+
+void Recorder::addTargets(const core::Estimate& estimate)
+{
+  for (const core::TargetEstimate& t : estimate.targets)
+  {
+    TargetTrack& track = tracks_[{!t.identified, t.id}];
+    track.id = t.id;
+    track.label = t.label;
+    track.identified = t.identified;
+    track.rows.push_back({record_.rows.size() - 1, t.pose, t.velocity, t.lastSeen});
+  }
+}
+
+void Recorder::addPairings(const core::Step& step, const core::Update& update)
+{
+  for (const core::Pairing& p : update.pairings)
+    record_.pairings.push_back({step.time, p, seenId(step, p)});
+}
+
+void Recorder::addLasers(const core::Step& step)
+{
+  if (!options_.keepLasers || step.lasers.empty() || record_.rows.empty()) return;
+  const std::size_t row = record_.rows.size() - 1;
+  if (!record_.lasers.empty() && record_.lasers.back().row < row)
+  {
+    const Pose2D moved = math::between(record_.rows[record_.lasers.back().row].robot.mean,
+                                       record_.rows[row].robot.mean);
+    if (std::hypot(moved.x, moved.y) < kLaserDistance && std::abs(moved.phi) < kLaserTurn) return;
+  }
+  for (const auto& scan : step.lasers) record_.lasers.push_back({row, scan});
+}
+
+void Recorder::finish(bool complete)
+{
+  record_.complete = complete;
+  const core::Estimate last = filter_->estimate();
+  record_.hasMap = last.landmarks != nullptr;
+  if (last.landmarks)
+    last.landmarks->visit([&](const core::LandmarkEstimate& m) { record_.landmarks.push_back(m); });
+  for (auto& [_, track] : tracks_)
+    if (!track.rows.empty()) record_.targets.push_back(std::move(track));
+  tracks_.clear();
+}
+}  // namespace slamot::eval
