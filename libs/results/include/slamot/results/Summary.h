@@ -1,0 +1,36 @@
+#pragma once
+
+#include <slamot/eval/Evaluation.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace slamot::results
+{
+/// What a run took; differs from run to run, so it is in summary.json only.
+struct Timing
+{
+  double wallS = 0, cpuS = 0;              ///< [s], whole run and whole process
+  double stepMedianUs = 0, stepP99Us = 0;  ///< [us], of the filter
+  double peakRssMb = 0;                    ///< [MB], of the process so far
+};
+
+/// What was run, on what.
+struct RunInfo
+{
+  std::string method;   ///< the filter's name
+  std::string dataset;  ///< the log, as it was named
+  std::uint64_t seed = 1;
+  std::string config;  ///< the effective configuration, as an ini text
+};
+
+/// summary.json: the keys that users rely on, in a fixed order; null for what has no truth or does
+/// not apply.  Numbers are the shortest that read back the same.
+[[nodiscard]] std::string summaryJson(const RunInfo& info, const eval::Record& record,
+                                      const eval::Evaluation& evaluation, const Timing& timing);
+
+/// The same numbers for a person: a few aligned lines, each with its unit.
+[[nodiscard]] std::string summaryTable(const eval::Record& record,
+                                       const eval::Evaluation& evaluation);
+}  // namespace slamot::results
