@@ -8,12 +8,16 @@ if(SLAMOT_SANITIZE)
   add_link_options(-fsanitize=${SLAMOT_SANITIZE})
 endif()
 
-# slamot_library(NAME SOURCES a.cpp ... [DEPENDS targets ...] [PRIVATE_DEPENDS targets ...])
+# slamot_library(NAME [SHARED] SOURCES a.cpp ... [DEPENDS targets ...] [PRIVATE_DEPENDS targets ...])
 # Makes lib slamot-NAME with alias slamot::NAME, headers in include/, installed and exported.
 function(slamot_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "SHARED" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target slamot-${name})
-  add_library(${target} ${ARG_SOURCES})
+  set(kind)  # else as BUILD_SHARED_LIBS says
+  if(ARG_SHARED)
+    set(kind SHARED)
+  endif()
+  add_library(${target} ${kind} ${ARG_SOURCES})
   add_library(slamot::${name} ALIAS ${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>

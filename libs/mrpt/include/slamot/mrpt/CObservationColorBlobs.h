@@ -1,0 +1,70 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+#include <slamot/mrpt/mrpt_compat.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slamot::obs
+{
+namespace mrpt = ::mrpt;  // MRPT's macros say `mrpt::`, which slamot::mrpt would hide
+
+// MRPT's Visualizable has a public destructor that is not virtual; nobody deletes through it.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
+
+/// A camera's colour blobs: targets and team mates, seen as patches of a known colour.  An empty
+/// list is a look that saw none.  Directions are in the sensor's frame: bearing positive to the
+/// left, elevation positive upwards.
+class CObservationColorBlobs : public ::mrpt::obs::CObservation, public slamot_viz::Visualizable
+{
+  DEFINE_SERIALIZABLE(CObservationColorBlobs, slamot::obs)
+
+ public:
+  static constexpr std::uint32_t kMostBlobs = 10000;   ///< in one observation, when read back
+  static constexpr std::uint32_t kLongestLabel = 255;  ///< [bytes]
+
+  struct Blob
+  {
+    std::string label;            ///< what the colour stands for: "target", "robot", ...
+    std::int32_t id = -1;         ///< identity; -1: the sensor can't tell
+    double centerX = 0;           ///< [pixel], from the image's left
+    double centerY = 0;           ///< [pixel], from the image's top
+    double boxLeft = 0;           ///< bounding box [pixel]
+    double boxTop = 0;            ///< [pixel]
+    double boxWidth = 0;          ///< [pixel]; 0: no image behind it
+    double boxHeight = 0;         ///< [pixel]
+    double area = 0;              ///< [pixel²]
+    double bearing = 0;           ///< [rad]
+    double bearingStd = 0;        ///< [rad]
+    double elevation = 0;         ///< [rad]
+    double elevationStd = 0;      ///< [rad]
+    std::optional<double> range;  ///< [m], along the line of sight; absent: not ranged
+    double rangeStd = 0;          ///< [m]; meaningless without a range
+  };
+
+  ::mrpt::poses::CPose3D sensorPoseOnRobot;
+  double rangeMin = 0, rangeMax = 1e6;  ///< where a blob is detected [m]
+  double bearingMin = -3.14159265358979323846, bearingMax = 3.14159265358979323846;      ///< [rad]
+  double elevationMin = -1.57079632679489661923, elevationMax = 1.57079632679489661923;  ///< [rad]
+  std::vector<Blob> blobs;
+
+  SLAMOT_GET_SENSOR_POSE(sensorPoseOnRobot)
+  void setSensorPose(const ::mrpt::poses::CPose3D& pose) override { sensorPoseOnRobot = pose; }
+
+  void getDescriptionAsText(std::ostream& o) const override;
+
+  /// rawlog-edit --export-txt: one row an observation; the blobs' columns repeat for each blob.
+  bool exportTxtSupported() const override { return true; }
+  std::string exportTxtHeader() const override;
+  std::string exportTxtDataRow() const override;
+
+  /// What RawLogViewer shows: the sensor, ranged blobs as balls, others as rays.
+  void getVisualizationInto(slamot_viz::CSetOfObjects& o) const override;
+};
+#pragma GCC diagnostic pop
+}  // namespace slamot::obs

@@ -1,0 +1,26 @@
+#pragma once
+
+// The one place for differences between MRPT's versions.  2.5.8 defines MRPT_VERSION as 0x258,
+// later releases as 0x020E00, 0x030102, ...: compare with 0x030000 only.
+#include <mrpt/version.h>
+
+#if MRPT_VERSION >= 0x030000
+#include <mrpt/viz/CSetOfObjects.h>
+#include <mrpt/viz/Visualizable.h>
+namespace slamot_viz = ::mrpt::viz;
+/// The signature of CObservation::getSensorPose() in a class; `member` holds the pose.
+#define SLAMOT_GET_SENSOR_POSE(member)                  \
+  ::mrpt::poses::CPose3D getSensorPose() const override \
+  {                                                     \
+    return member;                                      \
+  }
+#else
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/opengl/Visualizable.h>
+namespace slamot_viz = ::mrpt::opengl;
+#define SLAMOT_GET_SENSOR_POSE(member)                           \
+  void getSensorPose(::mrpt::poses::CPose3D& out) const override \
+  {                                                              \
+    out = member;                                                \
+  }
+#endif
