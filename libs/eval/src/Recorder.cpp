@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace slamot::eval
 {
 namespace
 {
+constexpr double kSameInstant = 2e-9;               // [s]: result files print nanoseconds
 constexpr double kLaserDistance = 0.1;              // [m]
 constexpr double kLaserTurn = math::degToRad(5.0);  // [rad]
 
@@ -78,14 +80,15 @@ void Recorder::accept(const core::Step& step, const core::Update& update)
   record_.particles = std::max(record_.particles, update.diagnostics.particles);
   record_.steps.push_back(diagnosticsOf(step, update));
   addPairings(step, update);
-  const bool sameInstant = !record_.rows.empty() && record_.rows.back().time >= step.time;
+  const bool sameInstant =
+      !record_.rows.empty() && record_.rows.back().time >= step.time - kSameInstant;
   if (step.odometry || sameInstant) addRow(update.estimate);
   addLasers(step);
 }
 
 void Recorder::addRow(const core::Estimate& estimate)
 {
-  if (!record_.rows.empty() && record_.rows.back().time >= estimate.time)
+  if (!record_.rows.empty() && record_.rows.back().time >= estimate.time - kSameInstant)
   {
     // The later belief about one instant replaces the earlier.
     scanPending_ = scanPending_ || record_.rows.back().scan;
@@ -137,8 +140,18 @@ void Recorder::finish(bool complete)
   record_.hasMap = last.landmarks != nullptr;
   if (last.landmarks)
     last.landmarks->visit([&](const core::LandmarkEstimate& m) { record_.landmarks.push_back(m); });
-  for (auto& [_, track] : tracks_)
-    if (!track.rows.empty()) record_.targets.push_back(std::move(track));
+  int freeId = 0;
+  std::set<int> taken;
+  for (auto& [_, track] : tracks_)  // those with an identity come first, and keep it
+  {
+    if (track.rows.empty()) continue;
+    if (!taken.insert(track.id).second)
+    {
+      while (taken.count(freeId) || tracks_.count({true, freeId})) ++freeId;
+      taken.insert(track.id = freeId);
+    }
+    record_.targets.push_back(std::move(track));
+  }
   tracks_.clear();
 }
 }  // namespace slamot::eval
