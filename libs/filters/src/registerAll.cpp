@@ -1,4 +1,5 @@
 #include <slamot/filters/DeadReckoning.h>
+#include <slamot/filters/RbpfSlamot.h>
 #include <slamot/filters/registerAll.h>
 
 namespace slamot::filters
@@ -18,6 +19,7 @@ void registerAll()
   static const bool once = []
   {
     add<DeadReckoning>("dead-reckoning");
+    add<RbpfSlamot>("rbpf-slamot");
     return true;
   }();
   (void)once;

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <slamot/core/FilterRegistry.h>
+
+namespace slamot::filters
+{
+/// Rao-Blackwellised particle filter for SLAM and object tracking: each particle holds a pose, an
+/// EKF for each landmark and one for each target.  Wu and Sun 2013, algorithm 1 as corrected; with
+/// `proposal = informed`, the pose is drawn from the Gaussian that takes in the scan's landmarks and
+/// targets (Montemerlo et al. 2003, FastSLAM 2.0).  Built on MRPT's particle filter classes.
+class RbpfSlamot : public core::Filter
+{
+ public:
+  RbpfSlamot(core::Params& params, const core::FilterContext& context);
+  ~RbpfSlamot() override;
+
+  core::Update process(const core::Step& step) override;
+  [[nodiscard]] core::Estimate estimate() const override;
+  [[nodiscard]] std::vector<core::WeightedPose> particles() const override;
+
+  /// Memory that the maps take [bytes].
+  [[nodiscard]] std::size_t mapBytes() const;
+
+  class Engine;
+
+ private:
+  std::unique_ptr<Engine> engine_;
+};
+}  // namespace slamot::filters

@@ -1,0 +1,436 @@
+#include "Engine.h"
+
+#include <slamot/core/checkStep.h>
+#include <slamot/math/random.h>
+
+#include <mrpt/random/RandomGenerators.h>
+
+#include <limits>
+
+namespace slamot::filters::rbpf
+{
+namespace
+{
+// Purposes of random streams.
+enum : std::uint64_t { kStartStream = 1, kMoveStream, kSampleStream, kResampleStream };
+
+constexpr double kLongestUnsampledTurn = 0.2;  // [rad] deviation of the pending heading
+
+double meanStd(const Gaussian<Pose2D>& g) { return std::sqrt(std::max(0.0, 0.5 * (g.cov(0, 0) + g.cov(1, 1)))); }
+}  // namespace
+
+void BestMap::visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const
+{
+  std::vector<core::LandmarkEstimate> confirmed;
+  map.visit([&](std::uint32_t slot, const maps::Landmark& m) {
+    if (m.sightings < settings_.confirmSightings || m.existence < 0) return;
+    confirmed.push_back({scan_.idOf(slot), {m.point(), m.cov()}, m.sightings});
+  });
+  std::sort(confirmed.begin(), confirmed.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  for (const auto& m : confirmed) visitor(m);
+}
+
+std::size_t BestMap::size() const
+{
+  std::size_t n = 0;
+  map.visit([&](std::uint32_t, const maps::Landmark& m) {
+    n += m.sightings >= settings_.confirmSightings && m.existence >= 0;
+  });
+  return n;
+}
+
+template <class Motion>
+EngineOf<Motion>::EngineOf(const Settings& settings, const Motion& motion,
+                           const core::FilterContext& context)
+    : settings_(settings),
+      motion_(motion),
+      seed_(context.seed),
+      workers_(context.threads),
+      pool_(workers_.lanes()),
+      particles_(pool_),
+      tracks_(settings.tracks),
+      scan_(settings_, pool_, workers_.lanes()),
+      scratch_(static_cast<std::size_t>(workers_.lanes())),
+      bestMap_(settings_, scan_)
+{
+  start(context);
+}
+
+template <class Motion>
+void EngineOf<Motion>::start(const core::FilterContext& context)
+{
+  const auto n = static_cast<std::size_t>(settings_.particles);
+  const Gaussian<Pose2D> robot = context.starts.robotPose();
+  const Matrix3 L = math::squareRoot(robot.cov);
+  particles_.m_particles.resize(n);
+  outcomes_.resize(n);
+  priors_.resize(n);
+  weights_.assign(n, 1.0 / static_cast<double>(n));
+  const double time = context.starts.time.value_or(-std::numeric_limits<double>::infinity());
+  for (const auto& [id, target] : context.starts.targets)
+    if (target.value[core::ObjectStart::kX] && target.value[core::ObjectStart::kY])
+      tracks_.addStart(id, context.starts.time.value_or(0));
+  rejections_.assign(tracks_.list().size(), 0);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    auto& p = particles_[i];
+    particles_.logWeight(i) = 0;
+    p.pose = robot.mean;
+    p.map.detach(pool_.newToken());
+    if (!settings_.informed)
+    {
+      math::RandomStream random{seed_, kStartStream, i};
+      const Vector3 d = L * random.normal3();
+      p.pose = {p.pose.x + d[0], p.pose.y + d[1], math::wrapToPi(p.pose.phi + d[2])};
+    }
+    for (const Track& t : tracks_.list()) p.targets.push_back(motion_.start(context.starts.targets.at(t.id)));
+  }
+  if (settings_.informed)
+  {
+    const Matrix3 R = math::poseRotation(-robot.mean.phi);
+    pending_.cov = R * robot.cov * R.transpose();
+  }
+  estimate_.landmarks = &bestMap_;
+  diagnostics_.particles = settings_.particles;
+  updateEstimate(time, false);
+}
+
+template <class Motion>
+core::Update EngineOf<Motion>::process(const core::Step& step)
+{
+  core::checkStep(step, estimate_.time);
+  const double dt = std::isfinite(estimate_.time) ? step.time - estimate_.time : 0.0;
+  const bool hasScan = (step.landmarks && (!step.landmarks->sightings.empty() || settings_.detection > 0)) ||
+                       (step.blobs && !step.blobs->blobs.empty());
+  ++stepNumber_;
+  diagnostics_.ess.reset();
+  diagnostics_.resampled = false;
+  std::vector<core::Pairing> pairs;
+  particles_.predictAndUpdate = [&] {
+    if (step.odometry) move(*step.odometry);
+    predictTargets(dt);
+    if (hasScan) takeScan(step);
+    if (step.blobs) dropLostTracks(step.time);
+    updateEstimate(step.time, hasScan);
+    if (hasScan) pairs = pairings(step);
+  };
+  if (!hasScan)
+    particles_.predictAndUpdate();  // weights stay: nothing to resample
+  else
+  {
+    // MRPT resamples with its thread's own generator: seeded here, it depends on our seed alone.
+    math::RandomStream random{seed_, kResampleStream, stepNumber_};
+    ::mrpt::random::getRandomGenerator().randomize(static_cast<std::uint32_t>(random() >> 32));
+    const std::uint64_t before = resamplings_;
+    ::mrpt::bayes::CParticleFilter filter;
+    filter.m_options = settings_.resampling;
+    filter.setVerbosityLevel(::mrpt::system::LVL_ERROR);
+    filter.executeOn(particles_, nullptr, nullptr, nullptr);
+    diagnostics_.resampled = particles_.substitutions != before;
+    resamplings_ = particles_.substitutions;
+    collectGarbage();
+  }
+  return {estimate_, std::move(pairs), diagnostics_};
+}
+
+template <class Motion>
+void EngineOf<Motion>::move(const Gaussian<Pose2D>& increment)
+{
+  pending_ = math::compose(pending_, increment);
+  if (settings_.informed && std::sqrt(pending_.cov(2, 2)) < kLongestUnsampledTurn) return;
+  const Matrix3 L = math::squareRoot(pending_.cov);
+  const Pose2D mean = pending_.mean;
+  workers_.forEach(particles_.size(), [&](std::size_t i, int) {
+    math::RandomStream random{seed_, kMoveStream, stepNumber_, i};
+    const Vector3 d = L * random.normal3();
+    Pose2D& pose = particles_[i].pose;
+    pose = math::compose(pose, {mean.x + d[0], mean.y + d[1], mean.phi + d[2]});
+  });
+  pending_ = {};
+}
+
+template <class Motion>
+void EngineOf<Motion>::predictTargets(double dt)
+{
+  if (dt <= 0 || tracks_.list().empty()) return;
+  workers_.forEach(particles_.size(), [&](std::size_t i, int) {
+    for (State& t : particles_[i].targets) motion_.predict(t, dt);
+  });
+}
+
+template <class Motion>
+void EngineOf<Motion>::takeScan(const core::Step& step)
+{
+  for (std::size_t i = 0; i < particles_.size(); ++i)
+    priors_[i] = settings_.informed ? math::compose(particles_[i].pose, pending_.mean) : particles_[i].pose;
+  scan_.begin(step.landmarks ? &*step.landmarks : nullptr, priors_, pending_);
+  blobRays_.rays.clear();
+  blobRays_.blobs = step.blobs ? &step.blobs->blobs : nullptr;
+  if (step.blobs)
+    for (const core::Blob& b : step.blobs->blobs) blobRays_.rays.push_back(settings_.ray(b));
+
+  workers_.forEach(particles_.size(), [&](std::size_t i, int lane) { updateParticle(i, lane); });
+  if (scan_.size() > 0 || blobRays_.rays.size() > 0) pending_ = {};
+
+  std::vector<const std::vector<std::int32_t>*> matches;
+  for (const Outcome& o : outcomes_) matches.push_back(&o.landmarks);
+  scan_.finish(matches);
+  normalise();
+  if (step.blobs) settleTracks(step.time);
+}
+
+template <class Motion>
+void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
+{
+  auto& p = particles_[i];
+  Outcome& out = outcomes_[i];
+  Scratch& scratch = scratch_[static_cast<std::size_t>(lane)];
+  const Eye prior(priors_[i]);
+  out.mean = {prior.x, prior.y, prior.phi};
+  out.cov.setZero();
+  if (settings_.informed)
+  {
+    const Matrix3 R = math::poseRotation(p.pose.phi);
+    out.cov = R * pending_.cov * R.transpose();
+  }
+  const Matrix3* poseCov = settings_.informed ? &out.cov : nullptr;
+  scan_.match(p.map, prior, out.cov, lane, scratch.candidates, out.landmarks);
+  matchBlobs(prior, blobRays_, tracks_.list(), p.targets, settings_.gates, poseCov, scratch.candidates,
+             out.blobs);
+  PoseUpdate update;
+  double gain = scan_.weigh(p.map, prior, out.cov, out.landmarks, scratch.innovations,
+                            settings_.informed ? &update : nullptr);
+  gain += weighTargets(i, prior, update);
+  const bool sampled = settings_.informed && scan_.size() + blobRays_.rays.size() > 0;
+  if (sampled) samplePose(i, update, gain);
+  particles_.logWeight(i) += gain;
+
+  const Eye eye = sampled ? Eye(p.pose) : prior;
+  scan_.apply(p.map, eye, out.landmarks, sampled ? nullptr : &scratch.innovations, lane);
+  for (std::size_t k = 0; k < out.blobs.size(); ++k)
+    if (out.blobs[k] >= 0)
+      correctTarget(motion_, p.targets[static_cast<std::size_t>(out.blobs[k])], eye, blobRays_.rays[k]);
+}
+
+template <class Motion>
+double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate& update)
+{
+  double sum = 0;
+  const auto& p = particles_[i];
+  const auto& blobs = outcomes_[i].blobs;
+  for (std::size_t k = 0; k < blobs.size(); ++k)
+  {
+    const Ray& ray = blobRays_.rays[k];
+    // A pair at the gate's edge: what a blob out of all gates counts, so that no particle gains by
+    // losing a target.
+    const double logNew = -0.5 * settings_.gates.outer - 0.5 * std::log(ray.varRange * ray.varBearing);
+    Innovation o;
+    const auto t = static_cast<std::size_t>(blobs[k]);
+    if (blobs[k] < 0 || !tracks_.list()[t].confirmed || !innovateTarget(eye, ray, p.targets[t], o))
+    {
+      sum += blobs[k] == kNew || blobs[k] == kRejected ? logNew : 0.0;
+      continue;
+    }
+    sum += logDensity(o, ray.hasRange);
+    if (settings_.informed) update.add(o);
+  }
+  return sum;
+}
+
+template <class Motion>
+void EngineOf<Motion>::samplePose(std::size_t i, const PoseUpdate& update, double& logWeight)
+{
+  Outcome& out = outcomes_[i];
+  const PoseUpdate::Result r = update.solve(out.cov);
+  out.mean += r.shift;
+  out.cov = r.cov;
+  logWeight += r.logGain;
+  math::RandomStream random{seed_, kSampleStream, stepNumber_, i};
+  const Vector3 x = out.mean + math::squareRoot(r.cov) * random.normal3();
+  particles_[i].pose = {x[0], x[1], math::wrapToPi(x[2])};
+}
+
+template <class Motion>
+void EngineOf<Motion>::normalise()
+{
+  particles_.normalizeWeights();
+  double sum = 0;
+  best_ = 0;
+  for (std::size_t i = 0; i < particles_.size(); ++i)
+  {
+    weights_[i] = std::exp(particles_.logWeight(i));
+    sum += weights_[i];
+    if (weights_[i] > weights_[best_]) best_ = i;
+  }
+  double squares = 0;
+  for (double& w : weights_)
+  {
+    w /= sum;
+    squares += w * w;
+  }
+  diagnostics_.ess = 1.0 / squares;
+}
+
+template <class Motion>
+std::vector<double> EngineOf<Motion>::voteShares(std::size_t blob, std::size_t known) const
+{
+  std::vector<double> share(known + 2, 0.0);  // the tracks, then new, then rejected
+  for (std::size_t i = 0; i < outcomes_.size(); ++i)
+  {
+    const std::int32_t m = outcomes_[i].blobs[blob];
+    const std::size_t at = m >= 0 ? static_cast<std::size_t>(m) : share.size() - (m == kNew ? 2 : 1);
+    share[at] += weights_[i];
+  }
+  return share;
+}
+
+template <class Motion>
+void EngineOf<Motion>::settleTracks(double time)
+{
+  const std::size_t known = tracks_.list().size();
+  blobIds_.assign(blobRays_.rays.size(), core::kNoId);
+  for (std::size_t k = 0; k < blobRays_.rays.size(); ++k)
+  {
+    const core::Blob& blob = (*blobRays_.blobs)[k];
+    const auto share = voteShares(k, known);
+    const auto winner = static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
+    if (winner < known)
+    {
+      tracks_.hit(winner, blob, time);
+      rejections_[winner] = 0;
+      blobIds_[k] = tracks_.list()[winner].id;
+    }
+    else if (winner == known && blob.range)
+    {
+      const Ray& ray = blobRays_.rays[k];
+      tracks_.add(blob, time);
+      blobIds_[k] = tracks_.list().back().id;
+      rejections_.push_back(0);
+      for (std::size_t i = 0; i < particles_.size(); ++i)
+        particles_[i].targets.push_back(motion_.birth(invert(Eye(particles_[i].pose), ray)));
+    }
+    else if (winner == known + 1 && blob.id != core::kNoId)
+      for (std::size_t t = 0; t < known; ++t)
+        if (Tracks::fits(tracks_.list()[t], blob)) ++rejections_[t];
+  }
+}
+
+template <class Motion>
+void EngineOf<Motion>::dropLostTracks(double time)
+{
+  constexpr int kMostRejections = 3;  // an identity seen this often out of the gate has been elsewhere
+  for (std::size_t t = tracks_.list().size(); t-- > 0;)
+  {
+    TargetMoments<Motion> moments;
+    for (std::size_t i = 0; i < particles_.size(); ++i) moments.add(weights_[i], particles_[i].targets[t]);
+    const double std = meanStd(moments.estimate(tracks_.list()[t]).pose);
+    if (rejections_[t] < kMostRejections && !tracks_.isLost(t, time, std)) continue;
+    tracks_.erase(t);
+    rejections_.erase(rejections_.begin() + static_cast<std::ptrdiff_t>(t));
+    for (std::size_t i = 0; i < particles_.size(); ++i)
+      particles_[i].targets.erase(particles_[i].targets.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+}
+
+template <class Motion>
+void EngineOf<Motion>::updateEstimate(double time, bool afterScan)
+{
+  estimate_.time = time;
+  const std::size_t n = particles_.size();
+  const bool resampledBefore = !afterScan;
+  if (resampledBefore)  // weights after a resampling are equal; outcomes_ are of the last scan
+    for (std::size_t i = 0; i < n; ++i) weights_[i] = std::exp(particles_.logWeight(i));
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += weights_[i];
+  const bool fromScan = afterScan && scan_.size() + blobRays_.rays.size() > 0;
+  Vector3 first = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+  Pose2D origin;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    weights_[i] /= sum;
+    Pose2D mean;
+    Matrix3 cov;
+    if (fromScan)
+    {
+      const Vector3& m = outcomes_[i].mean;
+      mean = {m[0], m[1], m[2]};
+      cov = outcomes_[i].cov;
+    }
+    else
+    {
+      mean = math::compose(particles_[i].pose, pending_.mean);
+      const Matrix3 R = math::poseRotation(particles_[i].pose.phi);
+      cov = R * pending_.cov * R.transpose();
+    }
+    if (i == 0) origin = mean;
+    const Vector3 d(mean.x - origin.x, mean.y - origin.y, math::wrapToPi(mean.phi - origin.phi));
+    first += weights_[i] * d;
+    second += weights_[i] * (d * d.transpose() + cov);
+  }
+  estimate_.robot.mean = {origin.x + first[0], origin.y + first[1], math::wrapToPi(origin.phi + first[2])};
+  const Matrix3 cov = second - first * first.transpose();
+  estimate_.robot.cov = 0.5 * (cov + cov.transpose());
+
+  estimate_.targets.clear();
+  for (std::size_t t = 0; t < tracks_.list().size(); ++t)
+  {
+    if (!tracks_.list()[t].confirmed) continue;
+    TargetMoments<Motion> moments;
+    for (std::size_t i = 0; i < n; ++i) moments.add(weights_[i], particles_[i].targets[t]);
+    estimate_.targets.push_back(moments.estimate(tracks_.list()[t]));
+  }
+  std::sort(estimate_.targets.begin(), estimate_.targets.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+  if (afterScan) bestMap_.map = particles_[best_].map;
+}
+
+template <class Motion>
+std::vector<core::Pairing> EngineOf<Motion>::pairings(const core::Step& step) const
+{
+  using Kind = core::Pairing::Outcome;
+  std::vector<core::Pairing> out;
+  const auto outcome = [](std::int32_t m) {
+    return m >= 0 ? Kind::kKnown : m == kNew ? Kind::kNew : Kind::kRejected;
+  };
+  const auto& landmarks = outcomes_[best_].landmarks;
+  for (std::size_t j = 0; step.landmarks && j < landmarks.size(); ++j)
+  {
+    const std::int32_t m = landmarks[j];
+    const int id = m >= 0      ? scan_.idOf(static_cast<std::uint32_t>(m))
+                   : m == kNew ? scan_.idOf(scan_.newSlot(j))
+                               : core::kNoId;
+    out.push_back({false, static_cast<int>(j), outcome(m), id});
+  }
+  const auto& blobs = outcomes_[best_].blobs;
+  for (std::size_t k = 0; step.blobs && k < blobs.size(); ++k)
+    out.push_back({true, static_cast<int>(k), outcome(blobs[k]), blobIds_[k]});
+  return out;
+}
+
+template <class Motion>
+void EngineOf<Motion>::collectGarbage()
+{
+  if (!maps::LandmarkCollector::isDue(pool_)) return;
+  maps::LandmarkCollector collector(pool_);
+  for (std::size_t i = 0; i < particles_.size(); ++i) collector.mark(particles_[i].map);
+  collector.mark(bestMap_.map);
+  collector.sweep();
+  scan_.releaseUnoccupied(collector.occupied());
+}
+
+template <class Motion>
+std::vector<core::WeightedPose> EngineOf<Motion>::particles() const
+{
+  std::vector<core::WeightedPose> out;
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    out.push_back({math::compose(particles_.m_particles[i].d.pose, pending_.mean), 0});
+  double sum = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) sum += out[i].weight = std::exp(particles_.m_particles[i].log_w);
+  for (auto& p : out) p.weight /= sum;
+  return out;
+}
+
+template class EngineOf<models::DifferentialDriveTarget>;
+template class EngineOf<models::DampedVelocityTarget>;
+}  // namespace slamot::filters::rbpf

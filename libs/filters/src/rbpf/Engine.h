@@ -1,0 +1,105 @@
+#pragma once
+
+#include "LandmarkScan.h"
+#include "ParticleSet.h"
+#include "Settings.h"
+#include "Workers.h"
+
+#include <slamot/core/Filter.h>
+#include <slamot/filters/RbpfSlamot.h>
+
+namespace slamot::filters
+{
+/// The filter without its target model's type.
+class RbpfSlamot::Engine
+{
+ public:
+  virtual ~Engine() = default;
+  virtual core::Update process(const core::Step& step) = 0;
+  [[nodiscard]] virtual core::Estimate estimate() const = 0;
+  [[nodiscard]] virtual std::vector<core::WeightedPose> particles() const = 0;
+  [[nodiscard]] virtual std::size_t mapBytes() const = 0;
+};
+}  // namespace slamot::filters
+
+namespace slamot::filters::rbpf
+{
+/// The heaviest particle's map, as the estimate shows it.
+class BestMap : public core::LandmarkView
+{
+ public:
+  BestMap(const Settings& settings, const LandmarkScan& scan) : settings_(settings), scan_(scan) {}
+  void visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const override;
+  [[nodiscard]] std::size_t size() const override;
+
+  maps::LandmarkMap map;
+
+ private:
+  const Settings& settings_;
+  const LandmarkScan& scan_;
+};
+
+template <class Motion>
+class EngineOf : public RbpfSlamot::Engine
+{
+ public:
+  EngineOf(const Settings& settings, const Motion& motion, const core::FilterContext& context);
+
+  core::Update process(const core::Step& step) override;
+  [[nodiscard]] core::Estimate estimate() const override { return estimate_; }
+  [[nodiscard]] std::vector<core::WeightedPose> particles() const override;
+  [[nodiscard]] std::size_t mapBytes() const override { return pool_.bytes(); }
+
+ private:
+  using State = typename Motion::State;
+  struct Outcome  // what one particle made of a scan
+  {
+    std::vector<std::int32_t> landmarks, blobs;
+    Vector3 mean;          // of its pose before sampling (informed), else the pose
+    Matrix3 cov;           // of that mean; zero for a sampled pose
+  };
+  struct Scratch
+  {
+    std::vector<Candidate> candidates;
+    std::vector<Innovation> innovations;
+  };
+
+  void start(const core::FilterContext& context);
+  void move(const Gaussian<Pose2D>& increment);
+  void predictTargets(double dt);
+  void takeScan(const core::Step& step);
+  void updateParticle(std::size_t i, int lane);
+  double weighTargets(std::size_t i, const Eye& eye, PoseUpdate& update);
+  void samplePose(std::size_t i, const PoseUpdate& update, double& logWeight);
+  void settleTracks(double time);
+  std::vector<double> voteShares(std::size_t blob, std::size_t known) const;
+  void dropLostTracks(double time);
+  void normalise();
+  void collectGarbage();
+  void updateEstimate(double time, bool afterScan);
+  [[nodiscard]] std::vector<core::Pairing> pairings(const core::Step& step) const;
+
+  Settings settings_;
+  Motion motion_;
+  std::uint64_t seed_;
+  std::uint64_t stepNumber_ = 0;
+  Workers workers_;
+  maps::LandmarkPool pool_;
+  ParticleSet<State> particles_;
+  Tracks tracks_;
+  LandmarkScan scan_;
+  BlobRays blobRays_;
+  Gaussian<Pose2D> pending_;       // informed: motion since the poses were last sampled
+  std::vector<Pose2D> priors_;     // each particle's pose before the scan
+  std::vector<double> weights_;    // normalised, after the scan
+  std::vector<Outcome> outcomes_;
+  std::vector<Scratch> scratch_;
+  std::vector<int> rejections_;    // of each track, in a row
+  std::vector<int> blobIds_;       // the target that the scan's blobs are of, on the whole
+  std::uint64_t resamplings_ = 0;
+  std::size_t best_ = 0;
+  BestMap bestMap_;
+  core::Estimate estimate_;
+  core::Diagnostics diagnostics_;
+};
+}  // namespace slamot::filters::rbpf

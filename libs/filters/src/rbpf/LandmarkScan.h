@@ -1,0 +1,75 @@
+#pragma once
+
+#include "PoseUpdate.h"
+#include "Settings.h"
+
+#include <slamot/maps/SlotIndex.h>
+
+#include <unordered_map>
+
+namespace slamot::filters::rbpf
+{
+/// The landmark side of a scan: which slots its sightings may be of, for all particles at once, and
+/// what one particle does with them.
+class LandmarkScan
+{
+ public:
+  LandmarkScan(const Settings& settings, maps::LandmarkPool& pool, int lanes);
+
+  /// Readies a scan: rays, slots by identity or candidates from the index, a slot for each sighting
+  /// that may be new.  `priors` are all particles' poses, `priorCov` their common uncertainty.
+  void begin(const core::LandmarkScan* scan, const std::vector<Pose2D>& priors,
+             const Gaussian<Pose2D>& pending);
+
+  /// Gives each sighting a slot, kNew or kRejected, for one particle.
+  void match(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov, int lane,
+             std::vector<Candidate>& candidates, std::vector<std::int32_t>& matches);
+
+  /// log weight of the matched sightings and of those unmatched; fills `update` where it is informed.
+  /// A sighting whose identity names a landmark far out of the outer gate becomes kRejected here.
+  /// `innovations` keeps what apply() can use again if the pose stays.
+  double weigh(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov,
+               std::vector<std::int32_t>& matches, std::vector<Innovation>& innovations,
+               PoseUpdate* update) const;
+
+  /// Takes the sightings into a particle's map, seen from its pose.
+  /// \param innovations those of weigh() if the pose is still the same, else null.
+  void apply(maps::LandmarkMap& map, const Eye& eye, const std::vector<std::int32_t>& matches,
+             const std::vector<Innovation>* innovations, int lane);
+
+  /// Ends a scan: slots that no particle used are free again, the others are placed in the index.
+  void finish(const std::vector<const std::vector<std::int32_t>*>& matches);
+
+  /// After a collection: slots that no map holds are free.
+  void releaseUnoccupied(const std::vector<bool>& occupied);
+
+  [[nodiscard]] std::size_t size() const { return rays_.size(); }
+  /// The reported identity of a slot's landmark.
+  [[nodiscard]] int idOf(std::uint32_t slot) const;
+  [[nodiscard]] std::uint32_t newSlot(std::size_t sighting) const { return newSlots_[sighting]; }
+
+ private:
+  void findKnown(const core::LandmarkScan& scan);
+  void findCandidates(const std::vector<Pose2D>& priors, const Gaussian<Pose2D>& pending);
+  void findInView(const core::LandmarkScan& scan, const std::vector<Pose2D>& priors);
+  void noteExtent(int lane, std::uint32_t slot, const maps::Landmark& m);
+  void applyMisses(maps::LandmarkMap& map, const Eye& eye, const std::vector<std::int32_t>& matches, int lane);
+
+  const Settings& settings_;
+  maps::LandmarkPool& pool_;
+  maps::SlotIndex index_;
+  std::unordered_map<int, std::uint32_t> slotOfId_;  // known association
+  std::vector<int> idOfSlot_;
+  std::vector<int> pendingIds_;                       // identities of the scan's sightings
+  core::FieldOfView fov_;
+  std::vector<Ray> rays_;
+  std::vector<double> logNew_;                        // log p_new for each sighting
+  std::vector<std::int32_t> knownSlots_;              // by identity; kNew if not seen before
+  std::vector<std::uint32_t> newSlots_;
+  std::vector<std::vector<std::uint32_t>> near_;      // slots that each sighting may be of
+  std::vector<std::uint32_t> touched_;                // slots whose extent this scan sets anew
+  std::vector<std::uint32_t> inView_;                 // slots that might be missed
+  std::vector<std::vector<maps::SlotExtent>> extents_;  // by lane, by slot
+  double missLogOdds_ = 0, hitLogOdds_ = 0;
+};
+}  // namespace slamot::filters::rbpf

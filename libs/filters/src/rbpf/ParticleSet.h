@@ -1,0 +1,80 @@
+#pragma once
+
+#include <slamot/maps/LandmarkMap.h>
+
+#include <mrpt/bayes/CParticleFilterData.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace slamot::filters::rbpf
+{
+template <class TargetState>
+struct Particle
+{
+  Pose2D pose;
+  maps::LandmarkMap map;  // a handle: nodes are shared
+  std::vector<TargetState> targets;
+};
+
+/// The particles as MRPT's particle filter classes see them.  MRPT decides when and how to resample;
+/// the step's work comes in as a function, since MRPT's own arguments (actions and frames) don't
+/// carry what a Step does.
+template <class TargetState>
+class ParticleSet
+    : public ::mrpt::bayes::CParticleFilterData<Particle<TargetState>,
+                                                ::mrpt::bayes::particle_storage_mode::VALUE>,
+      public ::mrpt::bayes::CParticleFilterDataImpl<
+          ParticleSet<TargetState>,
+          typename ::mrpt::bayes::CParticleFilterData<
+              Particle<TargetState>, ::mrpt::bayes::particle_storage_mode::VALUE>::CParticleList>
+{
+ public:
+  using Base = ::mrpt::bayes::CParticleFilterDataImpl<
+      ParticleSet<TargetState>,
+      typename ::mrpt::bayes::CParticleFilterData<
+          Particle<TargetState>, ::mrpt::bayes::particle_storage_mode::VALUE>::CParticleList>;
+  using Options = ::mrpt::bayes::CParticleFilter::TParticleFilterOptions;
+
+  explicit ParticleSet(maps::LandmarkPool& pool) : pool_(pool) {}
+
+  std::function<void()> predictAndUpdate;  ///< the current step's work
+  std::uint64_t substitutions = 0;         ///< resamplings so far
+
+  [[nodiscard]] std::size_t size() const { return this->m_particles.size(); }
+  [[nodiscard]] Particle<TargetState>& operator[](std::size_t i) { return this->m_particles[i].d; }
+  [[nodiscard]] double& logWeight(std::size_t i) { return this->m_particles[i].log_w; }
+
+  void performSubstitution(const std::vector<std::size_t>& indices) override
+  {
+    Base::performSubstitution(indices);
+    ++substitutions;
+    std::vector<std::size_t> sorted(indices);  // as the base places them
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+    {
+      // MRPT 2.5.8 (and 3.1) leaves the weights as they were, so that they would count twice.
+      this->m_particles[i].log_w = 0;
+      const bool shared = (i > 0 && sorted[i] == sorted[i - 1]) ||
+                          (i + 1 < sorted.size() && sorted[i] == sorted[i + 1]);
+      if (shared) this->m_particles[i].d.map.detach(pool_.newToken());
+    }
+  }
+
+  void prediction_and_update_pfStandardProposal(const ::mrpt::obs::CActionCollection*,
+                                                const ::mrpt::obs::CSensoryFrame*,
+                                                const Options&) override
+  {
+    predictAndUpdate();
+  }
+  void prediction_and_update_pfOptimalProposal(const ::mrpt::obs::CActionCollection*,
+                                               const ::mrpt::obs::CSensoryFrame*,
+                                               const Options&) override
+  {
+    predictAndUpdate();
+  }
+
+ private:
+  maps::LandmarkPool& pool_;
+};
+}  // namespace slamot::filters::rbpf

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <slamot/core/Step.h>
+#include <slamot/maps/LandmarkMap.h>
+#include <slamot/models/RangeBearing.h>
+
+#include <cmath>
+
+// The inner loop of the particle filter: one pose, one sighting, one point with covariance.  Written
+// out by hand, since here every nanosecond counts N particles times; RangeBearing is the readable
+// form, and a test holds the two together.
+namespace slamot::filters::rbpf
+{
+/// A sighting, prepared once for all particles.
+struct Ray
+{
+  double range = 0, cosB = 1, sinB = 0, bearing = 0;
+  double varRange = 1, varBearing = 1;
+  bool hasRange = true;
+
+  static Ray of(double range, double bearing, double rangeStd, double bearingStd)
+  {
+    return {range, std::cos(bearing), std::sin(bearing), bearing, rangeStd * rangeStd,
+            bearingStd * bearingStd, true};
+  }
+  static Ray ofBearing(double bearing, double bearingStd)
+  {
+    return {0, std::cos(bearing), std::sin(bearing), bearing, 1.0, bearingStd * bearingStd, false};
+  }
+};
+
+/// A pose with the sine and cosine of its heading.
+struct Eye
+{
+  double x, y, phi, c, s;
+  explicit Eye(const Pose2D& p) : x(p.x), y(p.y), phi(p.phi), c(std::cos(p.phi)), s(std::sin(p.phi)) {}
+};
+
+/// Innovation of one sighting of one point: nu (range, bearing), S = H P Hᵀ + R, H by the point.
+struct Innovation
+{
+  double nuR, nuB;
+  double s11, s12, s22, det;
+  double h11, h12, h21, h22;
+  double d2;  ///< nuᵀ S⁻¹ nu
+};
+
+/// atan2 for a point near the positive x axis, where a sighting's own point lies.
+inline double smallAngle(double y, double x)
+{
+  if (x > 0 && std::abs(y) < 0.1 * x)
+  {
+    const double t = y / x, q = t * t;  // the series' next term is below 1e-13
+    return t * (1 - q * (1.0 / 3 - q * (0.2 - q * (1.0 / 7 - q * (1.0 / 9 - q / 11)))));
+  }
+  return std::atan2(y, x);
+}
+
+/// False where the model is singular (range below 1 cm).
+inline bool innovate(const Eye& eye, const Ray& z, double mx, double my, double pxx, double pxy,
+                     double pyy, Innovation& o)
+{
+  const double dx = mx - eye.x, dy = my - eye.y, q = dx * dx + dy * dy;
+  constexpr double kMin = models::RangeBearing::kSmallestRange;
+  if (!(q >= kMin * kMin)) return false;
+  const double r = std::sqrt(q), ir = 1 / r, iq = ir * ir;
+  // The point in a frame along the sighting's ray: its direction there is minus the innovation,
+  // already wrapped.
+  const double c = eye.c * z.cosB - eye.s * z.sinB, s = eye.s * z.cosB + eye.c * z.sinB;
+  o.nuB = -smallAngle(c * dy - s * dx, c * dx + s * dy);
+  o.h21 = -dy * iq;
+  o.h22 = dx * iq;
+  if (z.hasRange)
+  {
+    o.nuR = z.range - r;
+    o.h11 = dx * ir;
+    o.h12 = dy * ir;
+  }
+  else
+    o.nuR = o.h11 = o.h12 = 0;  // varRange = 1 then makes the first row inert
+  const double a1 = pxx * o.h11 + pxy * o.h12, a2 = pxy * o.h11 + pyy * o.h12;
+  const double b1 = pxx * o.h21 + pxy * o.h22, b2 = pxy * o.h21 + pyy * o.h22;
+  o.s11 = o.h11 * a1 + o.h12 * a2 + z.varRange;
+  o.s12 = o.h21 * a1 + o.h22 * a2;
+  o.s22 = o.h21 * b1 + o.h22 * b2 + z.varBearing;
+  o.det = o.s11 * o.s22 - o.s12 * o.s12;
+  o.d2 = (o.s22 * o.nuR * o.nuR - 2 * o.s12 * o.nuR * o.nuB + o.s11 * o.nuB * o.nuB) / o.det;
+  return true;
+}
+
+/// The innovation with the pose's own covariance added to S.
+inline Innovation withPose(const Innovation& o, const Matrix3& poseCov)
+{
+  Eigen::Matrix<double, 2, 3> J;  // of h by the pose
+  J << -o.h11, -o.h12, 0.0, -o.h21, -o.h22, -1.0;
+  const Matrix2 add = J * poseCov * J.transpose();
+  Innovation out = o;
+  out.s11 += add(0, 0);
+  out.s12 += add(0, 1);
+  out.s22 += add(1, 1);
+  out.det = out.s11 * out.s22 - out.s12 * out.s12;
+  out.d2 = (out.s22 * o.nuR * o.nuR - 2 * out.s12 * o.nuR * o.nuB + out.s11 * o.nuB * o.nuB) / out.det;
+  return out;
+}
+
+/// Kalman update of a landmark by an innovation computed from it.
+inline void correct(maps::Landmark& m, const Innovation& o)
+{
+  const double a1 = m.cxx * o.h11 + m.cxy * o.h12, a2 = m.cxy * o.h11 + m.cyy * o.h12;
+  const double b1 = m.cxx * o.h21 + m.cxy * o.h22, b2 = m.cxy * o.h21 + m.cyy * o.h22;
+  const double id = 1 / o.det, i11 = o.s22 * id, i12 = -o.s12 * id, i22 = o.s11 * id;
+  const double k11 = a1 * i11 + b1 * i12, k12 = a1 * i12 + b1 * i22;
+  const double k21 = a2 * i11 + b2 * i12, k22 = a2 * i12 + b2 * i22;
+  m.x += k11 * o.nuR + k12 * o.nuB;
+  m.y += k21 * o.nuR + k22 * o.nuB;
+  // K S Kᵀ = K (P Hᵀ)ᵀ: the difference stays symmetric by construction, and positive since S > R.
+  m.cxx -= k11 * a1 + k12 * b1;
+  m.cxy -= k11 * a2 + k12 * b2;
+  m.cyy -= k21 * a2 + k22 * b2;
+  ++m.sightings;
+}
+
+/// The place that a sighting alone gives, with covariance from its noise.
+inline Gaussian<Point2D> invert(const Eye& eye, const Ray& z)
+{
+  const double c = eye.c * z.cosB - eye.s * z.sinB, s = eye.s * z.cosB + eye.c * z.sinB;
+  Gaussian<Point2D> out;
+  out.mean = {eye.x + z.range * c, eye.y + z.range * s};
+  const double across = z.range * z.range * z.varBearing;
+  out.cov(0, 0) = c * c * z.varRange + s * s * across;
+  out.cov(1, 1) = s * s * z.varRange + c * c * across;
+  out.cov(0, 1) = out.cov(1, 0) = c * s * (z.varRange - across);
+  return out;
+}
+
+/// Largest eigenvalue of a symmetric 2x2 matrix.
+inline double largestEigenvalue(double xx, double xy, double yy)
+{
+  const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
+  return mean + std::sqrt(half * half + xy * xy);
+}
+
+/// log of a product of many factors with one logarithm at the end: mantissa and exponent apart.
+class LogProduct
+{
+ public:
+  void times(double factor)
+  {
+    mantissa_ *= factor;
+    if (mantissa_ < 1e-200 || mantissa_ > 1e200)
+    {
+      int e = 0;
+      mantissa_ = std::frexp(mantissa_, &e);
+      exponent_ += e;
+    }
+  }
+  [[nodiscard]] double log() const { return std::log(mantissa_) + exponent_ * 0.69314718055994530942; }
+
+ private:
+  double mantissa_ = 1;
+  long exponent_ = 0;
+};
+}  // namespace slamot::filters::rbpf

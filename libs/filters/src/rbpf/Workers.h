@@ -1,0 +1,41 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cstddef>
+
+namespace slamot::filters::rbpf
+{
+/// Runs f(i, lane) for i in [0, n) on some threads; a lane is used by one thread at a time.
+/// Results must not depend on the lane, so that they don't on the number of threads.
+class Workers
+{
+ public:
+  explicit Workers(int threads) : threads_(threads), arena_(threads) {}
+  [[nodiscard]] int lanes() const { return threads_; }
+
+  template <class F>
+  void forEach(std::size_t n, F&& f)
+  {
+    if (threads_ == 1)
+    {
+      for (std::size_t i = 0; i < n; ++i) f(i, 0);
+      return;
+    }
+    constexpr std::size_t kGrain = 16;
+    arena_.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, kGrain),
+                        [&](const tbb::blocked_range<std::size_t>& r) {
+                          const int lane = tbb::this_task_arena::current_thread_index();
+                          for (std::size_t i = r.begin(); i < r.end(); ++i) f(i, lane);
+                        });
+    });
+  }
+
+ private:
+  int threads_;
+  tbb::task_arena arena_;
+};
+}  // namespace slamot::filters::rbpf
