@@ -1,0 +1,66 @@
+#pragma once
+
+#include <slamot/core/Params.h>
+#include <slamot/math/geometry.h>
+
+#include <optional>
+#include <vector>
+
+namespace slamot::sim
+{
+/// The rectangle [0, width] x [0, height] of the map frame [m].
+struct Area
+{
+  double width = 10, height = 10;
+
+  [[nodiscard]] Point2D centre() const { return {width / 2, height / 2}; }
+  /// Whether a point is inside, at least `border` [m] from every side.
+  [[nodiscard]] bool contains(const Point2D& p, double border = 0) const
+  {
+    return p.x >= border && p.y >= border && p.x <= width - border && p.y <= height - border;
+  }
+};
+
+/// Where an object starts and how it is driven: the keys that robots and targets share.
+struct Motion
+{
+  enum class Kind
+  {
+    kCircle,     ///< constant speed and turn rate, starting on the circle
+    kWaypoints,  ///< steers from point to point
+    kStraight,   ///< constant speed
+    kManoeuvre,  ///< constant speed; the turn rate changes its sign at random times
+    kCommand     ///< constant speed and turn rate from wherever it starts
+  };
+  enum class StartAt
+  {
+    kPath,       ///< on the circle, or at the first waypoint facing the next
+    kGiven,      ///< start_x_m, start_y_m, start_theta_deg
+    kRandom,     ///< uniform in the area, any heading
+    kNearTarget  ///< so far from the first target, inside the area, facing it
+  };
+
+  Kind kind = Kind::kCircle;
+  double speed = 0;     ///< [m/s]
+  double turnRate = 0;  ///< of command and manoeuvre [rad/s]
+  Point2D centre{5, 5};
+  double radius = 3;  ///< [m]
+  bool clockwise = false;
+  std::optional<double> phase;  ///< where on the circle it starts [rad]; absent: at random
+  std::vector<Point2D> waypoints;
+  bool loop = true;      ///< from the last waypoint to the first, else stop there
+  double reached = 0.5;  ///< a waypoint is passed at this distance [m]
+  double turnGain = 4;   ///< turn rate by bearing to where it steers [1/s]
+  double turnMax = 3;    ///< and its limit [rad/s]
+  double switchMin = 1;  ///< time between changes of the manoeuvre's sign,
+  double switchMax = 3;  ///< uniform between these [s]
+  double border = 1;     ///< a manoeuvre turns back this far from the area's sides [m]
+  StartAt startAt = StartAt::kPath;
+  Pose2D start;                   ///< if given
+  double startDistance = 4;       ///< from the target, if near it [m]
+  double vStd = 0, omegaStd = 0;  ///< noise of the executed motion, anew each step [m/s, rad/s]
+
+  /// Reads the keys from p.  \throws core::Error (kConfig).
+  static Motion from(core::Params& p, const Area& area);
+};
+}  // namespace slamot::sim

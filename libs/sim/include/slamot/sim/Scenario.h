@@ -1,0 +1,74 @@
+#pragma once
+
+#include <slamot/core/Step.h>
+#include <slamot/sim/Motion.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace slamot::sim
+{
+/// What is told to a filter about an object's start: the truth with an error drawn from these.
+struct StartKnowledge
+{
+  bool known = true;
+  std::array<double, 3> std{0, 0, 0};  ///< of x, y, theta [m, m, rad]
+  std::optional<double> velocityStd;   ///< of vx and vy [m/s]; absent: velocity is not told
+};
+
+struct RobotSetup
+{
+  Motion motion;
+  StartKnowledge start;
+  bool following = false;       ///< drives after a target instead of by its own motion
+  int followed = 0;             ///< that target's id
+  double followDistance = 1;    ///< keeps this far [m]
+  double followGain = 2;        ///< speed by distance [1/s]
+  double followSpeedRatio = 1;  ///< its top speed by the target's
+};
+
+struct TargetSetup
+{
+  Motion motion;
+  StartKnowledge start;
+  std::string label = "target";
+  /// Spans [from, until) in which it is there [s from the log's start]; empty: always.
+  std::vector<std::pair<double, double>> present;
+
+  [[nodiscard]] bool isPresent(double time) const;
+};
+
+/// A sensor at the robot's origin, looking ahead.
+struct SensorSetup
+{
+  core::FieldOfView fov;
+  double rangeStd = 0.1, bearingStd = 0.008;  ///< [m, rad]
+  double detection = 1;                       ///< chance that an object in view is seen
+  double clutter = 0;                         ///< false sightings a scan, mean
+  bool identities = true;                     ///< whether it tells which one it saw
+  bool bearingOnly = false;                   ///< of blobs
+  std::string clutterLabel = "target";        ///< of blobs
+};
+
+/// A world to simulate.  Sections [world] [robot] [target] or [target_<id>] [landmark_sensor]
+/// [target_sensor]; config-ini/sim.experiment1.ini comments every key.
+struct Scenario
+{
+  Area area;
+  double startTime = 0, dt = 0.025;  ///< [s]
+  int steps = 320;
+  int scanEvery = 8;                       ///< steps from one scan to the next
+  int landmarks = 0;                       ///< placed at random
+  double landmarkSpacing = 0;              ///< smallest distance between two of them [m]
+  std::vector<Point2D> landmarkPositions;  ///< given ones, instead
+  RobotSetup robot;
+  std::map<int, TargetSetup> targets;  ///< [target] is number 1
+  SensorSetup landmarkSensor, targetSensor;
+
+  /// Reads the sections; config.requireAllRead() then finds what nobody knows.
+  /// \throws core::Error (kConfig).
+  static Scenario from(core::Config& config);
+};
+}  // namespace slamot::sim

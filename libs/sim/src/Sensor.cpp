@@ -1,0 +1,40 @@
+#include "Sensor.h"
+
+#include <slamot/models/RangeBearing.h>
+
+#include <algorithm>
+
+namespace slamot::sim
+{
+std::vector<Seen> sense(const SensorSetup& sensor, const Pose2D& robot,
+                        const std::map<int, Point2D>& objects, const ScanKeys& keys)
+{
+  std::vector<Seen> out;
+  for (const auto& [id, at] : objects)
+  {
+    const auto z = models::RangeBearing::predict(robot, at);
+    if (!sensor.fov.contains(z[0], z[1])) continue;
+    auto random = stream(keys.seed, keys.sensing, keys.step, static_cast<std::uint64_t>(id));
+    if (random.uniform() >= sensor.detection) continue;
+    const double range = z[0] + sensor.rangeStd * random.normal();
+    out.push_back({range, math::wrapToPi(z[1] + sensor.bearingStd * random.normal()), id});
+  }
+  auto random = stream(keys.seed, keys.clutter, keys.step, 0);
+  for (int n = random.poisson(sensor.clutter); n > 0; --n)
+  {
+    const double range = random.uniform(sensor.fov.rangeMin, sensor.fov.rangeMax);
+    out.push_back({range, random.uniform(sensor.fov.bearingMin, sensor.fov.bearingMax)});
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Seen& a, const Seen& b) { return a.bearing < b.bearing; });
+  return out;
+}
+
+bool usable(const SensorSetup& sensor, const Seen& seen)
+{
+  // A bearing-only blob has no range to be wrong.
+  if (sensor.bearingOnly)
+    return seen.bearing >= sensor.fov.bearingMin && seen.bearing <= sensor.fov.bearingMax;
+  return seen.range > 0 && sensor.fov.contains(seen.range, seen.bearing);
+}
+}  // namespace slamot::sim

@@ -1,0 +1,124 @@
+#include "starts.h"
+
+#include <slamot/core/Error.h>
+
+#include <algorithm>
+
+namespace slamot::sim
+{
+namespace
+{
+constexpr int kTries = 10'000;
+
+[[noreturn]] void noPlace(const std::string& what, const std::string& mend)
+{
+  throw core::Error(core::ExitStatus::kConfig, "scenario", what, mend);
+}
+
+Point2D drawPoint(const Area& area, double border, math::RandomStream& random)
+{
+  const double x = random.uniform(border, area.width - border);
+  return {x, random.uniform(border, area.height - border)};
+}
+
+Pose2D pathStart(const Motion& m, math::RandomStream& random)
+{
+  if (m.kind == Motion::Kind::kWaypoints)
+  {
+    const Point2D &a = m.waypoints[0], &b = m.waypoints[1];
+    return {a.x, a.y, std::atan2(b.y - a.y, b.x - a.x)};
+  }
+  const double phase = m.phase ? *m.phase : random.uniform(-math::kPi, math::kPi);
+  return {m.centre.x + m.radius * std::cos(phase), m.centre.y + m.radius * std::sin(phase),
+          math::wrapToPi(phase + (m.clockwise ? -1 : 1) * math::kPi / 2)};
+}
+
+Pose2D place(const Motion& m, const Area& area, math::RandomStream& random)
+{
+  if (m.startAt == Motion::StartAt::kPath) return pathStart(m, random);
+  if (m.startAt == Motion::StartAt::kGiven) return m.start;
+  const Point2D at = drawPoint(area, 0, random);
+  return {at.x, at.y, random.uniform(-math::kPi, math::kPi)};
+}
+
+Pose2D placeFacing(const Pose2D& target, double distance, const Area& area,
+                   math::RandomStream& random)
+{
+  for (int i = 0; i < kTries; ++i)
+  {
+    const double a = random.uniform(-math::kPi, math::kPi);
+    const Point2D at{target.x - distance * std::cos(a), target.y - distance * std::sin(a)};
+    if (area.contains(at)) return {at.x, at.y, a};
+  }
+  noPlace("no place for the robot inside the world so far from its target",
+          "lower start_distance_m of [robot]");
+}
+
+bool clearOf(const std::map<int, Point2D>& others, const Point2D& p, double spacing)
+{
+  return std::none_of(others.begin(), others.end(),
+                      [&](const auto& other)
+                      { return std::hypot(other.second.x - p.x, other.second.y - p.y) < spacing; });
+}
+}  // namespace
+
+std::map<int, Point2D> placeLandmarks(const Scenario& s, std::uint64_t seed)
+{
+  std::map<int, Point2D> out;
+  for (const Point2D& p : s.landmarkPositions) out.emplace(static_cast<int>(out.size()), p);
+  for (int id = 0; id < s.landmarks; ++id)
+  {
+    auto random = stream(seed, Purpose::kLandmark, 0, static_cast<std::uint64_t>(id));
+    Point2D p = drawPoint(s.area, 0, random);
+    for (int i = 0; s.landmarkSpacing > 0 && !clearOf(out, p, s.landmarkSpacing); ++i)
+    {
+      if (i == kTries)
+        noPlace("no place for landmark " + std::to_string(id) + " so far from the others",
+                "lower landmark_spacing_min_m or landmarks of [world]");
+      p = drawPoint(s.area, 0, random);
+    }
+    out.emplace(id, p);
+  }
+  return out;
+}
+
+std::map<int, Pose2D> placeTargets(const Scenario& s, std::uint64_t seed)
+{
+  std::map<int, Pose2D> out;
+  for (const auto& [id, target] : s.targets)
+  {
+    auto random = stream(seed, Purpose::kStart, 0, targetKey(id));
+    out[id] = place(target.motion, s.area, random);
+  }
+  return out;
+}
+
+Pose2D placeRobot(const Scenario& s, const std::map<int, Pose2D>& targets, std::uint64_t seed)
+{
+  auto random = stream(seed, Purpose::kStart, 0, kRobot);
+  const Motion& m = s.robot.motion;
+  if (m.startAt != Motion::StartAt::kNearTarget) return place(m, s.area, random);
+  const Pose2D& target = s.robot.following ? targets.at(s.robot.followed) : targets.begin()->second;
+  return placeFacing(target, m.startDistance, s.area, random);
+}
+
+core::ObjectStart knownStart(const StartKnowledge& knowledge, const Motion& motion,
+                             const Pose2D& truth, math::RandomStream random)
+{
+  using S = core::ObjectStart;
+  S out;
+  const std::array<double, 3> values{truth.x, truth.y, truth.phi};
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    out.value[i] = values[i] + knowledge.std[i] * random.normal();
+    out.std[i] = knowledge.std[i];
+  }
+  out.value[S::kTheta] = math::wrapToPi(*out.value[S::kTheta]);
+  if (!knowledge.velocityStd) return out;
+  const double std = *knowledge.velocityStd;
+  out.value[S::kVx] = motion.speed * std::cos(truth.phi) + std * random.normal();
+  out.value[S::kVy] = motion.speed * std::sin(truth.phi) + std * random.normal();
+  out.std[S::kVx] = out.std[S::kVy] = std;
+  return out;
+}
+}  // namespace slamot::sim
