@@ -1,0 +1,35 @@
+#pragma once
+
+#include <slamot/core/Start.h>
+#include <slamot/core/run.h>
+#include <slamot/eval/Truth.h>
+
+namespace slamot::importers
+{
+/// What an import delivered and what it left out.
+struct Counts
+{
+  std::size_t steps = 0, landmarkScans = 0, sightings = 0, blobScans = 0, blobs = 0, lasers = 0;
+  std::size_t outOfView = 0;  ///< dropped: range at or below zero, or out of the field of view
+  std::size_t outOfTime = 0;  ///< dropped: where no odometry tells how the robot moved
+  std::size_t unknown = 0;    ///< dropped: of a thing that the data's own tables don't hold
+  double start = 0, end = 0;  ///< [s]
+};
+
+/// Data of another format as a stream of steps, with its starts and its truth.
+/// Reading fails with core::Error: file, line, what is wrong and how to mend it.
+class Import : public core::Source
+{
+ public:
+  [[nodiscard]] virtual const core::Starts& starts() const = 0;
+  /// Complete once next() has delivered the last step.
+  [[nodiscard]] virtual const eval::Truth& truth() const = 0;
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+ protected:
+  /// Counts a step that next() is about to deliver.
+  core::Step deliver(core::Step step);
+
+  Counts counts_;
+};
+}  // namespace slamot::importers

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <slamot/importers/HeldMotion.h>
+#include <slamot/importers/TextTable.h>
+
+namespace slamot::importers
+{
+/// A step of odometry, from one time to the next [s].
+struct OdometryStep
+{
+  double begin = 0, end = 0;
+  HeldMotion motion;
+};
+
+/// odometry.csv in either form.
+class CsvOdometry
+{
+ public:
+  explicit CsvOdometry(const std::string& folder);
+
+  /// The next step; rows of equal time make one.
+  std::optional<OdometryStep> next();
+  [[nodiscard]] double progress() const { return table_.progress(); }
+
+ private:
+  bool read();
+  [[nodiscard]] HeldMotion rowMotion() const;
+
+  TextTable table_;
+  bool velocities_ = false;
+  bool ahead_ = false;  // whether the table stands at a row not yet used
+  double last_ = 0, time_ = 0;
+};
+}  // namespace slamot::importers

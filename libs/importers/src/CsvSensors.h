@@ -1,0 +1,42 @@
+#pragma once
+
+#include <slamot/core/Step.h>
+#include <slamot/importers/Import.h>
+#include <slamot/importers/TextTable.h>
+
+#include <memory>
+
+namespace slamot::importers
+{
+/// The rows of one sensor's file, read one ahead.
+class SensorRows
+{
+ public:
+  virtual ~SensorRows() = default;
+
+  /// Time of the next row [s]; none at the end.
+  [[nodiscard]] std::optional<double> time() const { return time_; }
+  /// Adds the next row to a step and goes on.
+  void take(core::Step& step, Counts& counts);
+
+ protected:
+  explicit SensorRows(TextTable table) : table_(std::move(table)) {}
+  void advance();
+  virtual void add(core::Step& step, Counts& counts) = 0;
+
+  TextTable table_;
+
+ private:
+  std::optional<double> time_;
+  double last_ = 0;
+};
+
+/// What the sightings' rows tell of which landmark was seen, for the truth.
+using Associations = std::vector<eval::TrueAssociation>;
+
+/// The rows of landmark_sightings.csv, blobs.csv and scans.csv, as far as the folder has them.
+/// Sightings with an id are noted in `associations`, which must live as long as the rows do.
+std::vector<std::unique_ptr<SensorRows>> openSensors(const std::string& folder,
+                                                     const core::FieldOfView& fov,
+                                                     Associations& associations);
+}  // namespace slamot::importers
