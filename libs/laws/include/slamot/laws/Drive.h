@@ -1,0 +1,41 @@
+#pragma once
+
+#include <slamot/core/Start.h>
+#include <slamot/core/Step.h>
+
+namespace slamot::laws
+{
+/// A small world in memory: a robot on a circle among landmarks, and targets on theirs.  All noise
+/// is normal, of the deviations that the steps and starts tell, so that a filter set up for it is
+/// on its own model.
+struct World
+{
+  int steps = 60;
+  double dt = 0.1;                            ///< [s]
+  double speed = 1.0, turnRate = 0.4;         ///< the robot's, as odometry tells [m/s, rad/s]
+  double speedStd = 0.1, turnRateStd = 0.05;  ///< drawn anew each step [m/s, rad/s]
+  int landmarks = 12;                         ///< uniform in a square about the robot's circle
+  double halfSide = 6.0;                      ///< of that square [m]
+  int scanEvery = 4;                          ///< [steps]
+  double rangeMax = 8.0;                      ///< of the sensor, which sees all round [m]
+  double rangeStd = 0.1, bearingStd = 0.02;   ///< of landmarks and targets [m, rad]
+  bool identities = true;                     ///< whether the sensor tells which landmark it saw
+  int targets = 1;                            ///< labelled `target`, with identities from 0 on
+  double targetSpeed = 0.8, targetTurnRate = 0.2;        ///< known to the filter [m/s, rad/s]
+  double targetSpeedStd = 0.1, targetTurnRateStd = 0.1;  ///< drawn anew each step [m/s, rad/s]
+  double targetStartStd = 0.1;  ///< of the known start's x, y [m] and heading [rad]
+};
+
+/// One drive through a world: what the filter gets, and the truth.
+struct Drive
+{
+  core::Starts starts;
+  std::vector<core::Step> steps;
+  std::vector<Pose2D> robot;                 ///< true pose after each step
+  std::vector<std::vector<Pose2D>> targets;  ///< per step, by identity
+};
+
+/// The drive that the seed fixes, laid out from the robot's start: another start is the same world
+/// moved and rotated, with the same steps.
+[[nodiscard]] Drive drive(const World& world, std::uint64_t seed, const Pose2D& start = {});
+}  // namespace slamot::laws
