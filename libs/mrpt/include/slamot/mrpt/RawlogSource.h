@@ -9,18 +9,43 @@
 namespace slamot::mrpt
 {
 /// Streams the steps of a rawlog in either MRPT format, gz or plain, of bounded memory and time.
+///
+/// Pairs: an action and the frame after it are a step; an action with another after it is a step
+/// without sightings.  Of a log that begins with a frame, as MRPT's simulator writes, the first
+/// frame and the last action belong to no pair and are left out, as by MRPT's own programs.
+/// Observations only: consecutive ones of one timestamp are a step; increments are differences of
+/// CObservationOdometry's poses, of the first odometry sensor in the log.  Where no pose of a log
+/// ever changes but velocities are given, those are integrated instead.
+///
+/// A step's time is that of the first observation that has one, else the action's, else that of the
+/// step before; in a log without any, steps are kPeriodWithoutTimes apart.
 class RawlogSource : public core::Source
 {
  public:
+  static constexpr double kPeriodWithoutTimes = 0.1;  ///< [s]
+
+  /// Standard deviations of landmark sightings whose log gives none; zero: refuse such a log.
+  struct SensorDeviations
+  {
+    double range = 0;    ///< [m]
+    double bearing = 0;  ///< [rad]
+    /// Keys range_std_m and bearing_std_deg of section [sensor], both or neither.
+    static SensorDeviations from(core::Params& p);
+  };
+
   struct Options
   {
     core::OdometryModel odometry;
     bool salvage = false;  ///< deliver the intact first part of a truncated log, then say so
+    SensorDeviations sensor;
+    /// Sections [odometry] and [sensor].
+    static Options from(core::Config& config);
   };
 
   /// Scans the whole file first.
   /// \throws core::Error: kUnreadable, kTruncated (unless salvage), kNonsense, kLimit; names the
-  /// file, the entry and the byte offset.
+  /// file, the entry and the byte offset.  kConfig: the log gives no covariance of its odometry, as
+  /// with observations only, and options.odometry has no model.
   RawlogSource(const std::string& path, const Options& options);
   ~RawlogSource() override;
 

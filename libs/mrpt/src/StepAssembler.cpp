@@ -1,0 +1,255 @@
+#include "StepAssembler.h"
+
+#include "readMotion.h"
+#include "readObservation.h"
+#include "timestamp.h"
+
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace slamot::mrpt
+{
+using ::mrpt::obs::CActionCollection;
+using ::mrpt::obs::CObservation;
+using ::mrpt::obs::CObservationComment;
+using ::mrpt::obs::CObservationOdometry;
+using ::mrpt::obs::CSensoryFrame;
+
+namespace
+{
+bool isStill(const Pose2D& p)
+{
+  return p.x == 0 && p.y == 0 && p.phi == 0;
+}
+
+// A robot of constant velocity over dt; the midpoint's heading is exact to third order in dt.
+Pose2D integrate(const ::mrpt::math::TTwist2D& v, double dt)
+{
+  const double half = 0.5 * v.omega * dt;
+  return {dt * (v.vx * std::cos(half) - v.vy * std::sin(half)),
+          dt * (v.vx * std::sin(half) + v.vy * std::cos(half)), math::wrapToPi(v.omega * dt)};
+}
+
+bool holdsSightings(const core::Step& s)
+{
+  return s.landmarks || s.blobs || !s.lasers.empty();
+}
+}  // namespace
+
+StepAssembler::StepAssembler(const std::string& path, const RawlogSource::Options& options,
+                             const LogFacts* before)
+    : reader_(path), options_(options), before_(before)
+{
+  if (before_ != nullptr) lastMotionTime_ = before_->restTime;
+}
+
+const Entry* StepAssembler::peek()
+{
+  while (!entry_ && !ended_)
+  {
+    entry_ = reader_.next();
+    if (!entry_)
+    {
+      ended_ = true;
+      break;
+    }
+    if (const auto comment = entry_->as<CObservationComment>())
+    {
+      facts_.comment = comment->text;  // MRPT too keeps the last
+      entry_.reset();
+      continue;
+    }
+    ++facts_.entries;
+  }
+  return entry_ ? &*entry_ : nullptr;
+}
+
+void StepAssembler::take()
+{
+  current_ = std::move(*entry_);
+  entry_.reset();
+}
+
+std::optional<core::Step> StepAssembler::next()
+{
+  while (peek() != nullptr)
+    if (auto step = assemble())
+    {
+      ++facts_.steps;
+      return step;
+    }
+  return std::nullopt;
+}
+
+std::optional<core::Step> StepAssembler::assemble()
+{
+  const bool first = facts_.entries == 1;
+  take();
+  if (current_.as<CActionCollection>())
+  {
+    facts_.hasFrames = true;
+    return assemblePair();
+  }
+  if (current_.as<CSensoryFrame>())
+  {
+    facts_.hasFrames = true;
+    facts_.beginsWithFrame = facts_.beginsWithFrame || first;
+    if (first) return std::nullopt;
+    core::Step step;
+    std::optional<double> time;
+    addFrame(step, time);
+    if (!holdsSightings(step)) return std::nullopt;
+    setTime(step, time, false);
+    return step;
+  }
+  if (current_.as<CObservation>()) return assembleGroup();
+  return std::nullopt;
+}
+
+std::optional<core::Step> StepAssembler::assemblePair()
+{
+  core::Step step;
+  const Entry actionEntry = current_;
+  std::optional<double> actionTime;
+  if (const auto movement = movementAmong(*current_.as<CActionCollection>(), current_))
+  {
+    step.odometry = incrementOf(*movement, current_);
+    actionTime = toSeconds(movement->timestamp);
+  }
+  std::optional<double> time;
+  const bool hasFrame = peek() != nullptr && entry_->as<CSensoryFrame>();
+  if (hasFrame)
+  {
+    take();
+    addFrame(step, time);
+  }
+  else if (peek() == nullptr && facts_.beginsWithFrame)
+    return std::nullopt;
+  const bool fromAction = !time;
+  setTime(step, fromAction ? actionTime : time, fromAction);
+  if (facts_.steps == 0 && (!step.odometry || isStill(step.odometry->mean)))
+    facts_.restTime = step.time;
+  applyModel(step);
+  return step;
+}
+
+void StepAssembler::addFrame(core::Step& step, std::optional<double>& time)
+{
+  for (const auto& observation : *current_.as<CSensoryFrame>())
+  {
+    if (!observation) continue;
+    // Held by a frame, even odometry is what the action tells already.
+    addObservation(step, *observation, current_, options_.sensor);
+    if (!time) time = toSeconds(observation->timestamp);
+  }
+}
+
+std::optional<core::Step> StepAssembler::assembleGroup()
+{
+  core::Step step;
+  const auto stamp = current_.as<CObservation>()->timestamp;
+  const bool first = facts_.entries == 1;
+  bool used = add(step, *current_.as<CObservation>());
+  for (const Entry* e = peek(); e != nullptr; e = peek())
+  {
+    const auto observation = e->as<CObservation>();
+    if (!observation || observation->timestamp != stamp) break;
+    take();
+    used = add(step, *observation) || used;
+  }
+  const auto time = toSeconds(stamp);
+  if (time) noteTime(*time);
+  if (first && time && (!step.odometry || isStill(step.odometry->mean))) facts_.restTime = time;
+  if (!used || (!step.odometry && !holdsSightings(step))) return std::nullopt;
+  setTime(step, time, false);
+  applyModel(step);
+  return step;
+}
+
+bool StepAssembler::add(core::Step& step, const CObservation& observation)
+{
+  if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
+    return addOdometry(step, *odometry);
+  return addObservation(step, observation, current_, options_.sensor);
+}
+
+bool StepAssembler::addOdometry(core::Step& step, const CObservationOdometry& odometry)
+{
+  if (!odometryLabel_) odometryLabel_ = odometry.sensorLabel;
+  if (*odometryLabel_ != odometry.sensorLabel) return false;
+  const Pose2D pose = odometry.odometry.asTPose();
+  const auto& v = odometry.velocityLocal;
+  if (!std::isfinite(pose.x + pose.y + pose.phi) ||
+      (odometry.hasVelocities && !std::isfinite(v.vx + v.vy + v.omega)))
+    current_.fail("the odometry is not a number", "mend the log");
+  const auto time = toSeconds(odometry.timestamp);
+  if (odometryPose_)
+  {
+    Pose2D increment = math::between(*odometryPose_, pose);
+    const bool velocitiesOnly =
+        before_ != nullptr && before_->odometryHasVelocities && !before_->odometryPoseMoves;
+    if (velocitiesOnly && odometry.hasVelocities && time && odometryTime_)
+      increment = integrate(v, std::max(0.0, *time - *odometryTime_));
+    facts_.odometryPoseMoves = facts_.odometryPoseMoves || pose != *odometryPose_;
+    if (!step.odometry) step.odometry.emplace();
+    step.odometry->mean = math::compose(step.odometry->mean, increment);
+  }
+  facts_.odometryHasVelocities =
+      facts_.odometryHasVelocities ||
+      (odometry.hasVelocities && (v.vx != 0 || v.vy != 0 || v.omega != 0));
+  odometryPose_ = pose;
+  odometryTime_ = time;
+  return true;
+}
+
+void StepAssembler::noteTime(double time)
+{
+  if (!facts_.firstTime) facts_.firstTime = time;
+  if (facts_.firstPeriod == 0) facts_.firstPeriod = std::max(0.0, time - *facts_.firstTime);
+  facts_.lastTime = time;
+}
+
+void StepAssembler::setTime(core::Step& step, std::optional<double> time, bool fromAction)
+{
+  if (time)
+  {
+    noteTime(*time);
+    // Within one kind time must not go back; an action's clock may differ a little from a sensor's.
+    double& latest = latest_[fromAction ? 1 : 0];
+    if (*time < latest)
+    {
+      char what[96];
+      std::snprintf(what, sizeof what, "time %.6f s follows %.6f s", *time, latest);
+      current_.fail(what, "sort the log by time (RawLogViewer, menu Edit)");
+    }
+    latest = *time;
+  }
+  else if (lastTime_)
+    time = before_ != nullptr && before_->firstTime
+               ? *lastTime_
+               : *lastTime_ + RawlogSource::kPeriodWithoutTimes;
+  else
+    time = before_ != nullptr && before_->firstTime ? *before_->firstTime
+                                                    : RawlogSource::kPeriodWithoutTimes;
+  step.time = lastTime_ ? std::max(*time, *lastTime_) : *time;
+  lastTime_ = step.time;
+}
+
+void StepAssembler::applyModel(core::Step& step)
+{
+  if (!step.odometry) return;
+  double dt = lastMotionTime_ ? step.time - *lastMotionTime_ : 0;
+  if (dt <= 0 && !lastMotionTime_ && before_ != nullptr) dt = before_->firstPeriod;
+  lastMotionTime_ = step.time;
+  if (before_ == nullptr) return;
+  if (!options_.odometry.fromLog && dt <= 0 && !isStill(step.odometry->mean))
+    current_.fail("the robot moves in no time, so [odometry] noise = model can't tell how surely",
+                  "mend the log's times, or use the log's covariance: noise = log");
+  step.odometry = options_.odometry.apply(*step.odometry, dt);
+}
+}  // namespace slamot::mrpt

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "EntryReader.h"
+
+#include <slamot/mrpt/RawlogSource.h>
+
+#include <map>
+
+namespace mrpt::obs
+{
+class CActionCollection;
+class CObservation;
+class CObservationOdometry;
+}  // namespace mrpt::obs
+
+namespace slamot::mrpt
+{
+/// What is known of a rawlog only after a pass over all of it.
+struct LogFacts
+{
+  std::string comment;                 ///< its comment text
+  std::size_t entries = 0, steps = 0;  ///< entries without comments
+  bool hasFrames = false;              ///< of actions and frames; else observations only
+  bool beginsWithFrame = false;
+  std::optional<double> firstTime, lastTime;  ///< the first and last that are valid [s]
+  std::optional<double> restTime;             ///< of the first entry, if it holds no motion [s]
+  double firstPeriod = 0;                     ///< between the first two times that differ [s]
+  bool odometryPoseMoves = false;      ///< some CObservationOdometry's pose differs from the first
+  bool odometryHasVelocities = false;  ///< some velocity is not zero
+};
+
+/// Puts entries together to steps: one pass over a rawlog.
+class StepAssembler
+{
+ public:
+  /// \param before the facts of an earlier pass; null in the first, whose steps lack what needs
+  /// them.
+  StepAssembler(const std::string& path, const RawlogSource::Options& options,
+                const LogFacts* before);
+
+  /// \throws core::Error on a damaged file, on values that make no sense, and on time going
+  /// backwards.
+  std::optional<core::Step> next();
+
+  [[nodiscard]] const LogFacts& facts() const { return facts_; }
+  [[nodiscard]] double progress() const { return reader_.progress(); }
+
+ private:
+  using Observation = ::mrpt::obs::CObservation;
+
+  const Entry* peek();
+  void take();
+  std::optional<core::Step> assemble();
+  std::optional<core::Step> assemblePair();
+  std::optional<core::Step> assembleGroup();
+  void addFrame(core::Step& step, std::optional<double>& time);
+  bool add(core::Step& step, const Observation& observation);
+  bool addOdometry(core::Step& step, const ::mrpt::obs::CObservationOdometry& odometry);
+  void setTime(core::Step& step, std::optional<double> time, bool fromAction);
+  void noteTime(double time);
+  void applyModel(core::Step& step);
+
+  EntryReader reader_;
+  RawlogSource::Options options_;
+  const LogFacts* before_;
+  LogFacts facts_;
+  std::optional<Entry> entry_;  // looked at, not yet taken
+  bool ended_ = false;
+  Entry current_;  // where messages point to
+
+  std::optional<double> lastTime_;       // of a step [s]
+  double latest_[2] = {-1e300, -1e300};  // of observations, and of actions [s]
+  std::optional<double> lastMotionTime_;
+  std::optional<std::string> odometryLabel_;
+  std::optional<Pose2D> odometryPose_;
+  std::optional<double> odometryTime_;
+};
+}  // namespace slamot::mrpt
