@@ -56,6 +56,7 @@ int runCommand(int argc, char** argv)
   app.set_version_flag("--version", kVersion);
   app.require_subcommand(1);
   int status = 0;
+  slamot::apps::addSimulate(app, status);
   try
   {
     app.parse(argc, argv);
