@@ -16,6 +16,7 @@ StepRow diagnosticsOf(const core::Step& step, const core::Update& update)
 {
   StepRow out;
   out.time = step.time;
+  out.scan = step.landmarks || step.blobs;
   out.ess = update.diagnostics.ess;
   out.resampled = update.diagnostics.resampled;
   out.dropped = step.dropped;

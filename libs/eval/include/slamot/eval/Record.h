@@ -49,6 +49,7 @@ struct PairingRow
 struct StepRow
 {
   double time = 0;
+  bool scan = false;          ///< whether landmarks or blobs were looked for
   std::optional<double> ess;  ///< effective sample size before resampling [particles]
   bool resampled = false;
   int known = 0, created = 0, rejected = 0;  ///< sightings and blobs by outcome

@@ -30,7 +30,23 @@ struct RunInfo
 [[nodiscard]] std::string summaryJson(const RunInfo& info, const eval::Record& record,
                                       const eval::Evaluation& evaluation, const Timing& timing);
 
+/// Errors and consistency in more detail than the summary has, also as JSON.
+[[nodiscard]] std::string evaluationJson(const eval::Record& record,
+                                         const eval::Evaluation& evaluation);
+
+/// What later use needs of a folder's summary.json.
+struct SavedSummary
+{
+  std::string dataset;
+  bool hasMap = false, complete = false;
+  std::size_t observations = 0;
+  int particles = 0;
+};
+/// None if there is no such file.  \throws core::Error (kNonsense) if it is none of ours.
+[[nodiscard]] std::optional<SavedSummary> loadSummary(const std::string& folder);
+
 /// The same numbers for a person: a few aligned lines, each with its unit.
+/// \param detailed with errors at scans, at sightings and by time since the last sighting.
 [[nodiscard]] std::string summaryTable(const eval::Record& record,
-                                       const eval::Evaluation& evaluation);
+                                       const eval::Evaluation& evaluation, bool detailed = false);
 }  // namespace slamot::results
