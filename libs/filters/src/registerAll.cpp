@@ -1,3 +1,4 @@
+#include <slamot/filters/Baselines.h>
 #include <slamot/filters/DeadReckoning.h>
 #include <slamot/filters/RbpfSlamot.h>
 #include <slamot/filters/registerAll.h>
@@ -20,6 +21,9 @@ void registerAll()
   {
     add<DeadReckoning>("dead-reckoning");
     add<RbpfSlamot>("rbpf-slamot");
+    add<Independent>("independent");
+    add<OdometryTarget>("odometry");
+    add<TruePoseTarget>("true-pose-target");
     return true;
   }();
   (void)once;

@@ -70,7 +70,6 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
   for (const auto& [id, target] : context.starts.targets)
     if (target.value[core::ObjectStart::kX] && target.value[core::ObjectStart::kY])
       tracks_.addStart(id, context.starts.time.value_or(0));
-  rejections_.assign(tracks_.list().size(), 0);
   for (std::size_t i = 0; i < n; ++i)
   {
     auto& p = particles_[i];
@@ -297,7 +296,6 @@ void EngineOf<Motion>::settleTracks(double time)
     if (winner < known)
     {
       tracks_.hit(winner, blob, time);
-      rejections_[winner] = 0;
       blobIds_[k] = tracks_.list()[winner].id;
     }
     else if (winner == known && blob.range)
@@ -305,28 +303,24 @@ void EngineOf<Motion>::settleTracks(double time)
       const Ray& ray = blobRays_.rays[k];
       tracks_.add(blob, time);
       blobIds_[k] = tracks_.list().back().id;
-      rejections_.push_back(0);
       for (std::size_t i = 0; i < particles_.size(); ++i)
         particles_[i].targets.push_back(motion_.birth(invert(Eye(particles_[i].pose), ray)));
     }
-    else if (winner == known + 1 && blob.id != core::kNoId)
-      for (std::size_t t = 0; t < known; ++t)
-        if (Tracks::fits(tracks_.list()[t], blob)) ++rejections_[t];
+    else if (winner == known + 1)
+      tracks_.reject(blob);
   }
 }
 
 template <class Motion>
 void EngineOf<Motion>::dropLostTracks(double time)
 {
-  constexpr int kMostRejections = 3;  // an identity seen this often out of the gate has been elsewhere
   for (std::size_t t = tracks_.list().size(); t-- > 0;)
   {
     TargetMoments<Motion> moments;
     for (std::size_t i = 0; i < particles_.size(); ++i) moments.add(weights_[i], particles_[i].targets[t]);
     const double std = meanStd(moments.estimate(tracks_.list()[t]).pose);
-    if (rejections_[t] < kMostRejections && !tracks_.isLost(t, time, std)) continue;
+    if (!tracks_.isLost(t, time, std)) continue;
     tracks_.erase(t);
-    rejections_.erase(rejections_.begin() + static_cast<std::ptrdiff_t>(t));
     for (std::size_t i = 0; i < particles_.size(); ++i)
       particles_[i].targets.erase(particles_[i].targets.begin() + static_cast<std::ptrdiff_t>(t));
   }

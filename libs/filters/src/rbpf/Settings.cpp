@@ -13,22 +13,25 @@ Gates Gates::from(core::Params& p)
           math::chiSquareQuantile(inner, 1), math::chiSquareQuantile(outer, 1)};
 }
 
+TargetSettings TargetSettings::from(core::Params& p)
+{
+  return {Gates::from(p), TrackRules::from(p), p.nonNegative("target_range_std_m", 0.0),
+          p.nonNegative("target_bearing_std_deg", 0.0)};
+}
+
 Settings Settings::from(core::Params& p)
 {
   using PF = ::mrpt::bayes::CParticleFilter;
-  Settings s;
+  Settings s{};
+  static_cast<TargetSettings&>(s) = TargetSettings::from(p);
   s.particles = p.integer("particles", 1, 1000000);
   s.informed = p.choice("proposal", {"motion", "informed"}) == "informed";
   s.knownIds = p.choice("association", {"known", "nn"}) == "known";
-  s.gates = Gates::from(p);
   s.newDensity = p.nonNegative("new_density_per_m_rad", 0.0);
   s.rangeStd = p.nonNegative("range_std_m", 0.0);
   s.bearingStd = p.nonNegative("bearing_std_deg", 0.0);
-  s.targetRangeStd = p.nonNegative("target_range_std_m", 0.0);
-  s.targetBearingStd = p.nonNegative("target_bearing_std_deg", 0.0);
   s.confirmSightings = p.integer("confirm_sightings", 1, 1000000, s.knownIds ? 1 : 3);
   s.detection = p.inRange("detection_probability", 0, 0.999, 0.0);
-  s.tracks = TrackRules::from(p);
   s.resampling.BETA = p.inRange("resample_below_ess", 0, 1, 0.5);
   const std::string scheme =
       p.choice("resampling", {"systematic", "stratified", "residual", "multinomial"}, "systematic");
@@ -48,7 +51,7 @@ Ray Settings::ray(const core::Sighting& s) const
                  bearingStd > 0 ? bearingStd : s.bearingStd);
 }
 
-Ray Settings::ray(const core::Blob& b) const
+Ray TargetSettings::ray(const core::Blob& b) const
 {
   const double bStd = targetBearingStd > 0 ? targetBearingStd : b.bearingStd;
   if (!b.range) return Ray::ofBearing(b.bearing, bStd);

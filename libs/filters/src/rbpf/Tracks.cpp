@@ -18,7 +18,11 @@ bool Tracks::fits(const Track& track, const core::Blob& blob)
 
 void Tracks::addStart(int id, double time)
 {
-  tracks_.push_back({id, {}, true, true, 0, time});
+  Track track;
+  track.id = id;
+  track.identified = track.confirmed = true;
+  track.lastSeen = time;
+  tracks_.push_back(track);
   usedIds_.push_back(id);
 }
 
@@ -37,6 +41,7 @@ void Tracks::hit(std::size_t index, const core::Blob& blob, double time)
 {
   Track& track = tracks_[index];
   track.lastSeen = time;
+  track.rejections = 0;
   if (track.label.empty()) track.label = blob.label;
   ++track.hits;
   if (!track.confirmed && (track.identified || track.hits >= rules_.confirmSightings)) confirm(track);
@@ -50,9 +55,18 @@ void Tracks::confirm(Track& track)
   track.id = nextNumber_++;
 }
 
+void Tracks::reject(const core::Blob& blob)
+{
+  if (blob.id == core::kNoId) return;
+  for (Track& t : tracks_)
+    if (fits(t, blob)) ++t.rejections;
+}
+
 bool Tracks::isLost(std::size_t index, double time, double std) const
 {
   const Track& track = tracks_[index];
+  constexpr int kMostRejections = 3;  // an identity seen this often elsewhere is elsewhere
+  if (track.rejections >= kMostRejections) return true;
   const double unseen = time - track.lastSeen;
   if (!track.confirmed) return unseen > rules_.tentativeTime;
   return unseen > rules_.lostTime || !(std <= rules_.lostStd);

@@ -25,6 +25,7 @@ struct Track
   std::string label;     ///< empty: not known yet (a start)
   bool identified = false, confirmed = false;
   int hits = 0;
+  int rejections = 0;  ///< sightings with its identity in a row that were out of every gate
   double lastSeen = 0;
 };
 
@@ -43,6 +44,8 @@ class Tracks
   void add(const core::Blob& blob, double time);
   /// A sighting of a track.
   void hit(std::size_t index, const core::Blob& blob, double time);
+  /// A blob out of every gate: counts against the track of its identity.
+  void reject(const core::Blob& blob);
   /// Whether a track whose place has this deviation [m] is lost by now.
   [[nodiscard]] bool isLost(std::size_t index, double time, double std) const;
   void erase(std::size_t index) { tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(index)); }

@@ -3,6 +3,8 @@
 #include <slamot/core/Estimate.h>
 #include <slamot/core/Start.h>
 
+#include <functional>
+
 namespace slamot::core
 {
 /// An estimator: the only virtual call into it is process(), once a step.
@@ -29,5 +31,8 @@ struct FilterContext
   Starts starts;
   std::uint64_t seed = 1;
   int threads = 1;
+  /// The robot's true pose at a time, if known there: only for the bound `true-pose-target`, which
+  /// says so by its name.  Empty for every other filter.
+  std::function<std::optional<Pose2D>(double time)> truePose;
 };
 }  // namespace slamot::core

@@ -3,6 +3,7 @@
 #include <slamot/core/Params.h>
 #include <slamot/core/Start.h>
 
+#include <Eigen/LU>
 #include <variant>
 
 namespace slamot::models
