@@ -10,4 +10,4 @@ install(FILES ${PROJECT_BINARY_DIR}/slamot-config.cmake
   ${PROJECT_BINARY_DIR}/slamot-config-version.cmake
   ${CMAKE_CURRENT_LIST_DIR}/SlamotDependencies.cmake DESTINATION ${package_dir})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config-ini ${PROJECT_SOURCE_DIR}/share/datasets
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/slamot)
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/slamot PATTERN .gitkeep EXCLUDE)

@@ -80,6 +80,15 @@ TEST(DeadReckoning, ObeysTheFilterLaws)
   laws::checkFilter("dead-reckoning");
 }
 
+TEST(CheckFilter, FindsOverconfidenceUnderASystematicError)
+{
+  laws::LawOptions options;
+  options.world.speedScaleStd = 0.05;
+  const auto broken = laws::brokenLaws("defective", withDefect("none"), options);
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_NE(broken[0].find("over-confident"), std::string::npos);
+}
+
 TEST(CheckFilter, FindsNothingWhereThereIsNoDefect)
 {
   EXPECT_EQ(lawsBroken("none"), "");

@@ -11,9 +11,7 @@ FilterRegistry& FilterRegistry::instance()
 
 void FilterRegistry::add(const std::string& name, Factory factory)
 {
-  if (!factories_.emplace(name, std::move(factory)).second)
-    throw Error(ExitStatus::kConfig, "filter " + name, "is registered twice",
-                "give the plugin's filter another name");
+  if (!factories_.emplace(name, std::move(factory)).second) twice_.insert(name);
 }
 
 std::vector<std::string> FilterRegistry::names() const
@@ -34,6 +32,9 @@ std::unique_ptr<Filter> FilterRegistry::make(const std::string& name, Config& co
     throw Error(ExitStatus::kConfig, config.name(), "filter '" + name + "' is unknown",
                 "known: " + known + "; load others with --plugin");
   }
+  if (twice_.count(name))
+    throw Error(ExitStatus::kConfig, "filter " + name, "is registered twice",
+                "give the plugin's filter another name");
   Params params(config, name);
   return it->second(params, context);
 }

@@ -81,10 +81,11 @@ Drive drive(const World& world, std::uint64_t seed, const Pose2D& start)
   std::vector<Pose2D> targets;
   for (int id = 0; id < world.targets; ++id)
     targets.push_back(startTarget(world, id, start, out.starts, random));
+  const double scale = 1 + world.speedScaleStd * random.normal();
   for (int i = 1; i <= world.steps; ++i)
   {
     const auto noisy = [&](double value, double std) { return value + std * random.normal(); };
-    const double v = noisy(world.speed, world.speedStd);
+    const double v = noisy(scale * world.speed, world.speedStd);
     robot = moved(robot, v, noisy(world.turnRate, world.turnRateStd), world.dt);
     for (Pose2D& target : targets)
     {

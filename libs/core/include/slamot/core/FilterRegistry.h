@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 
 namespace slamot::core
 {
@@ -18,18 +19,21 @@ class FilterRegistry
 
   static FilterRegistry& instance();
 
-  /// \throws Error (kConfig) if another filter has the name.
+  /// A name that comes twice is an error of make(): plugins add while they are loaded, where an
+  /// exception would end the program.
   void add(const std::string& name, Factory factory);
   [[nodiscard]] bool has(const std::string& name) const { return factories_.count(name) > 0; }
   [[nodiscard]] std::vector<std::string> names() const;
 
   /// Makes the filter `name` with the config's section of that name.
-  /// \throws Error (kConfig) if there is no such filter, or its parameters are wrong.
+  /// \throws Error (kConfig) if there is no such filter, two have the name, or its parameters are
+  /// wrong.
   [[nodiscard]] std::unique_ptr<Filter> make(const std::string& name, Config& config,
                                              const FilterContext& context) const;
 
  private:
   std::map<std::string, Factory> factories_;
+  std::set<std::string> twice_;
 };
 
 /// The filter that a config is for: `method` of [run], else its one section named after a filter.

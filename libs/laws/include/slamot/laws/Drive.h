@@ -14,13 +14,16 @@ struct World
   double dt = 0.1;                            ///< [s]
   double speed = 1.0, turnRate = 0.4;         ///< the robot's, as odometry tells [m/s, rad/s]
   double speedStd = 0.1, turnRateStd = 0.05;  ///< drawn anew each step [m/s, rad/s]
-  int landmarks = 12;                         ///< uniform in a square about the robot's circle
-  double halfSide = 6.0;                      ///< of that square [m]
-  int scanEvery = 4;                          ///< [steps]
-  double rangeMax = 8.0;                      ///< of the sensor, which sees all round [m]
-  double rangeStd = 0.1, bearingStd = 0.02;   ///< of landmarks and targets [m, rad]
-  bool identities = true;                     ///< whether the sensor tells which landmark it saw
-  int targets = 1;                            ///< labelled `target`, with identities from 0 on
+  /// Of a factor on the distance travelled, drawn once a drive, about 1: a systematic error, as of
+  /// worn wheels, that the steps do not tell.
+  double speedScaleStd = 0;
+  int landmarks = 12;                        ///< uniform in a square about the robot's circle
+  double halfSide = 6.0;                     ///< of that square [m]
+  int scanEvery = 4;                         ///< [steps]
+  double rangeMax = 8.0;                     ///< of the sensor, which sees all round [m]
+  double rangeStd = 0.1, bearingStd = 0.02;  ///< of landmarks and targets [m, rad]
+  bool identities = true;                    ///< whether the sensor tells which landmark it saw
+  int targets = 1;                           ///< labelled `target`, with identities from 0 on
   double targetSpeed = 0.8, targetTurnRate = 0.2;        ///< known to the filter [m/s, rad/s]
   double targetSpeedStd = 0.1, targetTurnRateStd = 0.1;  ///< drawn anew each step [m/s, rad/s]
   double targetStartStd = 0.1;  ///< of the known start's x, y [m] and heading [rad]
