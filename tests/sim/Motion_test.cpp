@@ -62,12 +62,12 @@ TEST(Following, SwitchedOffTheRobotDrivesItsOwnCircle)
               6);
   for (const auto& step : drain(world))
   {
-    EXPECT_NEAR(speedOf(step), 1.6, 1e-9);
-    EXPECT_NEAR(turnRateOf(step), 0.8, 1e-9);
+    EXPECT_NEAR(speedOf(step), 1.5, 1e-9);
+    EXPECT_NEAR(turnRateOf(step), 1, 1e-9);
   }
-  // A polygon of 0.04 m sides, turned before each side: its centre is off by half a side.
+  // A polygon of 0.0375 m sides, turned before each side: its centre is off by half a side.
   for (const auto& row : world.truth().robot.poses)
-    EXPECT_NEAR(std::hypot(row.pose.x - 5, row.pose.y - 5), 2, 0.045);
+    EXPECT_NEAR(std::hypot(row.pose.x - 5, row.pose.y - 5), 1.5, 0.045);
 }
 
 TEST(Waypoints, AreVisitedInTurnAndTheLastIsTheEnd)
