@@ -21,15 +21,6 @@ Json orNull(const std::optional<T>& value)
   return value ? Json(*value) : Json(nullptr);
 }
 
-// MRPT tells version and date; the date says nothing about a result.
-std::string mrptVersion()
-{
-  const std::string text = ::mrpt::system::MRPT_getVersion();
-  const auto first = text.find_first_of("0123456789");
-  if (first == std::string::npos) return text;
-  return text.substr(first, text.find_first_not_of("0123456789.", first) - first);
-}
-
 Json errorsJson(const eval::ErrorSummary& e)
 {
   return {{"position_mean_error_m", orNull(e.positionMean)},
@@ -113,6 +104,15 @@ std::string dump(const Json& json)
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 }  // namespace
+
+// MRPT tells version and date; the date says nothing about a result.
+std::string mrptVersion()
+{
+  const std::string text = ::mrpt::system::MRPT_getVersion();
+  const auto first = text.find_first_of("0123456789");
+  if (first == std::string::npos) return text;
+  return text.substr(first, text.find_first_not_of("0123456789.", first) - first);
+}
 
 std::string summaryJson(const RunInfo& info, const eval::Record& record,
                         const eval::Evaluation& evaluation, const Timing& timing)

@@ -25,6 +25,9 @@ struct RunInfo
   std::string config;  ///< the effective configuration, as an ini text
 };
 
+/// MRPT's version as numbers and dots.
+[[nodiscard]] std::string mrptVersion();
+
 /// summary.json: the keys that users rely on, in a fixed order; null for what has no truth or does
 /// not apply.  Numbers are the shortest that read back the same.
 [[nodiscard]] std::string summaryJson(const RunInfo& info, const eval::Record& record,

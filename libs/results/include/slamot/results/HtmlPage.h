@@ -1,0 +1,41 @@
+#pragma once
+
+#include <slamot/results/Plot.h>
+
+#include <string>
+#include <vector>
+
+namespace slamot::results
+{
+/// A table's cells as text; the first column names the rows.
+struct Table
+{
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// A page that needs nothing but itself: pictures and style inline, nothing fetched; for light and
+/// dark screens and for paper.  All text is taken literally.
+class HtmlPage
+{
+ public:
+  HtmlPage(const std::string& title, const std::string& subtitle);
+
+  void banner(const std::string& text);  ///< what no reader may overlook
+  void heading(const std::string& text);
+  void paragraph(const std::string& text);
+  void table(const Table& table);
+  void preformatted(const std::string& text);
+  /// A plot with a caption.  Where gnuplot fails the page says so in its place, and goes on.
+  void figure(const std::string& caption, const Figure& figure);
+
+  /// The whole page.
+  [[nodiscard]] std::string html() const;
+  /// Why plots are missing; empty if none is.
+  [[nodiscard]] const std::string& missingPlots() const { return missingPlots_; }
+
+ private:
+  std::string title_, subtitle_, body_, missingPlots_;
+  int figures_ = 0;
+};
+}  // namespace slamot::results

@@ -1,0 +1,129 @@
+#include <slamot/results/HtmlPage.h>
+
+#include <slamot/core/Error.h>
+#include <slamot/results/Gnuplot.h>
+
+namespace slamot::results
+{
+namespace
+{
+std::string escaped(const std::string& text)
+{
+  std::string out;
+  for (const char c : text)
+  {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string element(const char* tag, const std::string& text)
+{
+  return std::string("<") + tag + ">" + escaped(text) + "</" + tag + ">";
+}
+
+const char* const kStyle = R"(
+*{box-sizing:border-box}
+body{margin:0 auto;max-width:60rem;padding:1.5rem 1rem 3rem;background:var(--paper);color:var(--ink-text);
+font:1rem/1.5 system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
+h1{font-size:1.6rem;line-height:1.25;margin:0 0 .2rem;overflow-wrap:anywhere}
+h2{font-size:1.15rem;margin:2.2rem 0 .6rem;padding-bottom:.25rem;border-bottom:1px solid var(--ink-grid)}
+.sub,figcaption,.note{color:var(--faint)}
+.sub{margin:0}
+.banner{margin:1rem 0;padding:.7rem 1rem;border-radius:.4rem;background:#b42318;color:#fff;font-weight:600}
+.wide{overflow-x:auto}
+table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.93rem}
+th,td{padding:.3rem .8rem;text-align:right;border-bottom:1px solid var(--ink-grid);white-space:nowrap}
+th{font-weight:600;vertical-align:bottom;white-space:normal}
+th:first-child,td:first-child{text-align:left;padding-left:0}
+figure{margin:1.2rem 0 1.8rem}
+figcaption{font-size:.93rem;margin-bottom:.4rem}
+svg{display:block;width:100%;height:auto}
+svg text{font-family:system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
+pre{margin:0;padding:.8rem 1rem;border-radius:.4rem;background:var(--shade);overflow-x:auto;font-size:.85rem;line-height:1.45}
+@media print{body{max-width:none;padding:0;font-size:10pt}figure,table,pre{break-inside:avoid}
+pre{white-space:pre-wrap}.banner{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
+)";
+
+std::string style()
+{
+  return ":root{color-scheme:light dark;--paper:#fff;--shade:#f6f8fa;--faint:#57606a;" +
+         inkVariables(false) + "}\n@media screen and (prefers-color-scheme:dark){:root{" +
+         "--paper:#0d1117;--shade:#161b22;--faint:#9198a1;" + inkVariables(true) + "}}" + kStyle;
+}
+}  // namespace
+
+HtmlPage::HtmlPage(const std::string& title, const std::string& subtitle)
+    : title_(title), subtitle_(subtitle)
+{
+}
+
+void HtmlPage::banner(const std::string& text)
+{
+  body_ += "<p class=\"banner\" role=\"alert\">" + escaped(text) + "</p>\n";
+}
+
+void HtmlPage::heading(const std::string& text)
+{
+  body_ += element("h2", text) + "\n";
+}
+void HtmlPage::paragraph(const std::string& text)
+{
+  body_ += element("p", text) + "\n";
+}
+void HtmlPage::preformatted(const std::string& text)
+{
+  body_ += element("pre", text) + "\n";
+}
+
+void HtmlPage::table(const Table& table)
+{
+  const auto row = [&](const char* tag, const std::vector<std::string>& cells)
+  {
+    std::string line;
+    for (const std::string& cell : cells) line += element(tag, cell);
+    return "<tr>" + line + "</tr>\n";
+  };
+  body_ += "<div class=\"wide\"><table>\n";
+  if (!table.header.empty()) body_ += "<thead>" + row("th", table.header) + "</thead>\n";
+  body_ += "<tbody>\n";
+  for (const auto& cells : table.rows) body_ += row("td", cells);
+  body_ += "</tbody></table></div>\n";
+}
+
+void HtmlPage::figure(const std::string& caption, const Figure& figure)
+{
+  body_ += "<figure>" + element("figcaption", caption) + "\n";
+  try
+  {
+    const std::string prefix = "f" + std::to_string(++figures_) + "-";
+    std::string svg = inlineSvg(drawFigure(figure, PictureFormat::kSvg), prefix);
+    svg.insert(svg.find("<svg") + 4, " role=\"img\" aria-label=\"" + escaped(caption) + "\"");
+    body_ += svg;
+  }
+  catch (const core::Error& e)
+  {
+    missingPlots_ = e.what();
+    body_ += "<p class=\"note\">This plot is missing: " + escaped(e.what()) + "</p>\n";
+  }
+  body_ += "</figure>\n";
+}
+
+std::string HtmlPage::html() const
+{
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
+         std::string("<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n") +
+         element("title", title_) + "\n<style>\n" + style() +
+         "</style>\n</head>\n<body>\n<header>" + element("h1", title_) + "\n<p class=\"sub\">" +
+         escaped(subtitle_) + "</p></header>\n" + body_ + "</body>\n</html>\n";
+}
+}  // namespace slamot::results

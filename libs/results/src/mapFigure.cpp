@@ -1,0 +1,149 @@
+#include <slamot/results/Figures.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace slamot::results
+{
+namespace
+{
+using Kind = Series::Kind;
+constexpr std::size_t kNamedTargets = 6;  ///< more do not fit the legend
+
+void appendPoint(Series& s, double x, double y)
+{
+  s.x.push_back(x);
+  s.y.push_back(y);
+}
+
+void breakLine(Series& s)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  appendPoint(s, nan, nan);
+}
+
+/// Long paths cross themselves often: thin lines leave something to see.
+Kind lineKind(std::size_t points)
+{
+  return points > 5000 ? Kind::kThin : Kind::kLine;
+}
+
+/// Truth moved into the map's frame.
+struct TruthMover
+{
+  Pose2D mapFromTruth;
+  explicit TruthMover(const Pose2D& truthFromMap)
+      : mapFromTruth(math::between(truthFromMap, Pose2D{}))
+  {
+  }
+  void append(Series& s, const Point2D& p) const
+  {
+    const Point2D q = math::transform(mapFromTruth, p);
+    appendPoint(s, q.x, q.y);
+  }
+  void append(Series& s, const eval::Trajectory& t) const
+  {
+    for (const auto& p : t.poses) append(s, Point2D{p.pose.x, p.pose.y});
+    breakLine(s);
+  }
+};
+
+void addLandmarks(Plot& plot, const RunView& run, const TruthMover& mover)
+{
+  Series ellipses{Kind::kShape, "landmarks, 95% ellipse", Ink::kGreen, {}, {}, {}, {}};
+  Series centres{Kind::kDots, "", Ink::kGreen, {}, {}, {}, {}};
+  for (const auto& landmark : run.record.landmarks)
+  {
+    appendEllipse(ellipses, landmark.position);
+    appendPoint(centres, landmark.position.mean.x, landmark.position.mean.y);
+  }
+  Series truth{Kind::kCrosses, "landmarks, true", Ink::kText, {}, {}, {}, {}};
+  for (const auto& [id, p] : run.truth.landmarks) mover.append(truth, p);
+  plot.series.insert(plot.series.end(), {ellipses, centres, truth});
+}
+
+Series pathOf(const eval::TargetTrack& track)
+{
+  Series path{lineKind(track.rows.size()), nameOf(track), Ink::kVermillion, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < track.rows.size(); ++i)
+  {
+    if (i > 0 && track.rows[i].row != track.rows[i - 1].row + 1) breakLine(path);
+    appendPoint(path, track.rows[i].pose.mean.x, track.rows[i].pose.mean.y);
+  }
+  return path;
+}
+
+void addTargets(Plot& plot, const RunView& run, double arrow)
+{
+  const auto& targets = run.record.targets;
+  for (std::size_t i = 0; i < targets.size(); ++i)
+  {
+    if (targets[i].rows.empty()) continue;
+    Series path = pathOf(targets[i]);
+    path.ink = inkOf(i);
+    if (targets.size() > kNamedTargets) path.title = i == 0 ? "targets" : "";
+    plot.series.push_back(path);
+    const bool there = targets[i].rows.back().row + 1 == run.record.rows.size();
+    Series end{Kind::kSolid, "", path.ink, {}, {}, {}, {}};
+    appendArrow(end, targets[i].rows.back().pose.mean, arrow);
+    if (there) plot.series.push_back(end);
+  }
+}
+
+void addTruePaths(Plot& plot, const RunView& run, const TruthMover& mover)
+{
+  Series paths{Kind::kDashes, "true paths", Ink::kText, {}, {}, {}, {}};
+  if (!run.truth.robot.empty()) mover.append(paths, run.truth.robot);
+  for (const auto& [id, trajectory] : run.truth.targets) mover.append(paths, trajectory);
+  plot.series.push_back(paths);
+}
+
+/// Size of what is mapped, for marks that should neither vanish nor hide the rest [m].
+double extent(const eval::Record& record)
+{
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  for (const auto& row : record.rows)
+  {
+    x0 = std::min(x0, row.robot.mean.x), x1 = std::max(x1, row.robot.mean.x);
+    y0 = std::min(y0, row.robot.mean.y), y1 = std::max(y1, row.robot.mean.y);
+  }
+  for (const auto& l : record.landmarks)
+  {
+    x0 = std::min(x0, l.position.mean.x), x1 = std::max(x1, l.position.mean.x);
+    y0 = std::min(y0, l.position.mean.y), y1 = std::max(y1, l.position.mean.y);
+  }
+  return std::max({x1 - x0, y1 - y0, 0.1});
+}
+}  // namespace
+
+std::string nameOf(const eval::TargetTrack& track)
+{
+  const std::string label = track.label.empty() ? "target" : track.label;
+  return label + " " + std::to_string(track.id) + (track.identified ? "" : " (no identity)");
+}
+
+Figure mapFigure(const RunView& run)
+{
+  Plot plot;
+  plot.equalAxes = true;
+  plot.xLabel = "x [m]", plot.yLabel = "y [m]";
+  const TruthMover mover(run.evaluation.truthFromMap);
+  const double arrow = 0.03 * extent(run.record);
+
+  Series odometry{Kind::kThin, "odometry alone", Ink::kMuted, {}, {}, {}, {}};
+  Series robot{lineKind(run.record.rows.size()), "robot", Ink::kBlue, {}, {}, {}, {}};
+  for (const auto& row : run.record.rows)
+  {
+    appendPoint(odometry, row.odometry.x, row.odometry.y);
+    appendPoint(robot, row.robot.mean.x, row.robot.mean.y);
+  }
+  plot.series = {odometry, robot};
+  addTargets(plot, run, arrow);
+  addTruePaths(plot, run, mover);
+  addLandmarks(plot, run, mover);
+  Series end{Kind::kSolid, "", Ink::kBlue, {}, {}, {}, {}};
+  if (!run.record.rows.empty()) appendArrow(end, run.record.rows.back().robot.mean, arrow);
+  plot.series.push_back(end);
+  return Figure{{plot}};
+}
+}  // namespace slamot::results
