@@ -28,6 +28,7 @@ inline constexpr double kTwoPi = 2.0 * kPi;
 {
   if (angle > -kPi && angle <= kPi) return angle;
   const double wrapped = angle - kTwoPi * std::round(angle / kTwoPi);
+  if (wrapped > kPi) return wrapped - kTwoPi;  // the quotient rounded down to a half less
   return wrapped <= -kPi ? wrapped + kTwoPi : wrapped;
 }
 
