@@ -101,6 +101,7 @@ Config Config::parse(const std::string& text, const std::string& name)
     {
       if (line.back() != ']' || line.size() < 3) fail(where, "unclosed section", "write [name]");
       section = trim(line.substr(1, line.size() - 2));
+      if (section.empty()) fail(where, "section without a name", "write [name]");
       for (const auto& [other, _] : config.sections_)
         if (lower(other) == lower(section))
           fail(where, "section [" + section + "] comes twice", "merge the two");
@@ -180,8 +181,9 @@ std::string Config::effectiveText() const
   std::string text;
   for (const std::string& name : order_)
   {
-    const Section& section = sections_.at(name);
-    if (section.effectiveOrder.empty()) continue;
+    const auto it = sections_.find(name);
+    if (it == sections_.end() || it->second.effectiveOrder.empty()) continue;
+    const Section& section = it->second;
     text += (text.empty() ? "[" : "\n[") + name + "]\n";
     for (const std::string& key : section.effectiveOrder)
       text += key + " = " + section.effective.at(key) + "\n";

@@ -23,7 +23,7 @@ std::string format(double v)
 // from_chars: strict, whole, and the same in every locale.
 std::optional<double> parseNumber(std::string s)
 {
-  if (!s.empty() && s[0] == '+') s.erase(0, 1);
+  if (s.size() > 1 && s[0] == '+' && s[1] != '-') s.erase(0, 1);
   double v = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), v);
   if (error != std::errc{} || end != s.data() + s.size() || !std::isfinite(v)) return std::nullopt;
@@ -45,15 +45,16 @@ bool inDegrees(const std::string& key)
          (at + 4 == key.size() || key[at + 4] == '_' || key[at + 4] == 'p');
 }
 
+/// The parts between commas, trimmed; a part may be empty.
 std::vector<std::string> split(const std::string& text)
 {
   std::vector<std::string> parts;
-  std::istringstream in(text);
+  std::istringstream in(text + ',');
   for (std::string part; std::getline(in, part, ',');)
   {
     const auto first = part.find_first_not_of(" \t");
-    if (first == std::string::npos) continue;
-    parts.push_back(part.substr(first, part.find_last_not_of(" \t") - first + 1));
+    const auto end = part.find_last_not_of(" \t") + 1;
+    parts.push_back(first == std::string::npos ? "" : part.substr(first, end - first));
   }
   return parts;
 }
@@ -176,7 +177,9 @@ std::string Params::choice(const std::string& key, const std::vector<std::string
 std::vector<std::string> Params::list(const std::string& key, std::optional<std::string> otherwise)
 {
   const auto parts = split(read(key, otherwise, "a comma-separated list"));
-  if (parts.empty()) fail(key, "is empty", "give at least one value");
+  // Left out in silence, an empty part would shift the values after it.
+  if (std::find(parts.begin(), parts.end(), "") != parts.end())
+    fail(key, "has an empty part", "give values with single commas between");
   return parts;
 }
 

@@ -2,6 +2,7 @@
 #include <slamot/core/Start.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 namespace slamot::core
@@ -25,14 +26,19 @@ std::optional<ObjectStart> readObject(Params& p, const std::string& object)
   return out;
 }
 
+/// A line of the section; the number is the shortest that reads back, in every locale.
+std::string line(const std::string& key, double value)
+{
+  char number[40];
+  const auto end = std::to_chars(number, number + sizeof number, value).ptr;
+  return key + " = " + std::string(number, end) + "\n";
+}
+
 void writeObject(std::string& text, const std::string& object, const ObjectStart& start)
 {
   const auto write = [&](const std::string& key, const std::optional<double>& v)
   {
-    if (!v) return;
-    char line[128];
-    std::snprintf(line, sizeof line, "%s_%s = %.17g\n", object.c_str(), key.c_str(), *v);
-    text += line;
+    if (v) text += line(object + "_" + key, *v);
   };
   for (std::size_t i = 0; i < kFields.size(); ++i)
   {
@@ -72,12 +78,7 @@ std::string Starts::toIni() const
 {
   if (!time && !robot && targets.empty()) return {};
   std::string text = "[start]\n";
-  if (time)
-  {
-    char line[64];
-    std::snprintf(line, sizeof line, "time_s = %.17g\n", *time);
-    text += line;
-  }
+  if (time) text += line("time_s", *time);
   if (robot) writeObject(text, "robot", *robot);
   for (const auto& [id, start] : targets) writeObject(text, "target_" + std::to_string(id), start);
   return text;

@@ -6,9 +6,10 @@ RunResult run(Source& source, Filter& filter, const std::vector<Sink*>& sinks,
               const RunOptions& options)
 {
   RunResult result;
-  for (Sink* sink : sinks) sink->begin(filter.estimate());
+  std::size_t begun = 0;
   try
   {
+    for (; begun < sinks.size(); ++begun) sinks[begun]->begin(filter.estimate());
     while (const auto step = source.next())
     {
       const Update update = filter.process(*step);
@@ -24,7 +25,7 @@ RunResult run(Source& source, Filter& filter, const std::vector<Sink*>& sinks,
   }
   catch (...)
   {
-    for (Sink* sink : sinks) sink->finish(false);
+    for (std::size_t i = 0; i < begun; ++i) sinks[i]->finish(false);
     throw;
   }
   for (Sink* sink : sinks) sink->finish(!result.interrupted);

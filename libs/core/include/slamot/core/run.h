@@ -44,7 +44,7 @@ struct RunResult
 };
 
 /// The pipeline: every step of the source through the filter, into every sink.
-/// On an exception the sinks are finished as incomplete, and it goes on to the caller.
+/// On an exception the sinks that began are finished as incomplete, and it goes on to the caller.
 RunResult run(Source& source, Filter& filter, const std::vector<Sink*>& sinks,
               const RunOptions& options = {});
 }  // namespace slamot::core
