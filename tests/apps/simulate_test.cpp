@@ -203,8 +203,8 @@ TEST(SimulateCommand, WhatIsWrongIsOneLineAndLeavesNothing)
          "sim.experiment1.ini [world] landmark: unknown key; did you mean landmarks?");
   expect(
       ini + " -o a.rawlog --set world.landmark_spacing_min_m=5", 1,
-      "scenario: no place for landmark 5 so far from the others; lower landmark_spacing_min_m or "
-      "landmarks of [world]");
+      "sim.experiment1.ini [world] landmark_spacing_min_m: leaves no place for landmark 5; lower "
+      "it, or landmarks");
   expect(ini + " -o a.log", 1, "--output a.log: is not named as a rawlog; end it in .rawlog");
   expect("none.ini", 1, "none.ini: can't be read; give the path of an ini file");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.rawlog")));

@@ -57,8 +57,9 @@ TEST(Scenario, WhatIsWrongIsSaidWithItsKey)
   expect({"world.landmark_positions_m=1,2"},
          "[world] landmark_positions_m: given beside landmarks");
   expect({"world.landmarks=0", "world.landmark_positions_m=1,2,3"}, "has an x without y");
-  expect({"world.landmark_spacing_min_m=9"}, "no place for landmark");
-  expect({"robot.start_distance_m=40"}, "no place for the robot");
+  expect({"world.landmark_spacing_min_m=9"},
+         "[world] landmark_spacing_min_m: leaves no place for landmark");
+  expect({"robot.start_distance_m=40"}, "[robot] start_distance_m: leaves no place for the robot");
   expect({"robot.motion=loop"},
          "[robot] motion: 'loop' is not known; set it to circle | waypoints");
   expect({"robot.start=given"},

@@ -139,6 +139,7 @@ bool TargetSetup::isPresent(double time) const
 Scenario Scenario::from(core::Config& config)
 {
   Scenario s;
+  s.name = config.name();
   core::Params world(config, "world");
   s.area.width = world.positive("width_m");
   s.area.height = world.positive("height_m");

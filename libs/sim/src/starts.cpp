@@ -10,9 +10,11 @@ namespace
 {
 constexpr int kTries = 10'000;
 
-[[noreturn]] void noPlace(const std::string& what, const std::string& mend)
+[[noreturn]] void noPlace(const Scenario& s, const std::string& key, const std::string& whose,
+                          const std::string& mend)
 {
-  throw core::Error(core::ExitStatus::kConfig, "scenario", what, mend);
+  throw core::Error(core::ExitStatus::kConfig, s.name + " " + key, "leaves no place for " + whose,
+                    mend);
 }
 
 Point2D drawPoint(const Area& area, double border, math::RandomStream& random)
@@ -41,17 +43,16 @@ Pose2D place(const Motion& m, const Area& area, math::RandomStream& random)
   return {at.x, at.y, random.uniform(-math::kPi, math::kPi)};
 }
 
-Pose2D placeFacing(const Pose2D& target, double distance, const Area& area,
-                   math::RandomStream& random)
+Pose2D placeFacing(const Pose2D& target, const Scenario& s, math::RandomStream& random)
 {
+  const double distance = s.robot.motion.startDistance;
   for (int i = 0; i < kTries; ++i)
   {
     const double a = random.uniform(-math::kPi, math::kPi);
     const Point2D at{target.x - distance * std::cos(a), target.y - distance * std::sin(a)};
-    if (area.contains(at)) return {at.x, at.y, a};
+    if (s.area.contains(at)) return {at.x, at.y, a};
   }
-  noPlace("no place for the robot inside the world so far from its target",
-          "lower start_distance_m of [robot]");
+  noPlace(s, "[robot] start_distance_m", "the robot inside the world", "lower it");
 }
 
 bool clearOf(const std::map<int, Point2D>& others, const Point2D& p, double spacing)
@@ -73,8 +74,8 @@ std::map<int, Point2D> placeLandmarks(const Scenario& s, std::uint64_t seed)
     for (int i = 0; s.landmarkSpacing > 0 && !clearOf(out, p, s.landmarkSpacing); ++i)
     {
       if (i == kTries)
-        noPlace("no place for landmark " + std::to_string(id) + " so far from the others",
-                "lower landmark_spacing_min_m or landmarks of [world]");
+        noPlace(s, "[world] landmark_spacing_min_m", "landmark " + std::to_string(id),
+                "lower it, or landmarks");
       p = drawPoint(s.area, 0, random);
     }
     out.emplace(id, p);
@@ -99,7 +100,7 @@ Pose2D placeRobot(const Scenario& s, const std::map<int, Pose2D>& targets, std::
   const Motion& m = s.robot.motion;
   if (m.startAt != Motion::StartAt::kNearTarget) return place(m, s.area, random);
   const Pose2D& target = s.robot.following ? targets.at(s.robot.followed) : targets.begin()->second;
-  return placeFacing(target, m.startDistance, s.area, random);
+  return placeFacing(target, s, random);
 }
 
 core::ObjectStart knownStart(const StartKnowledge& knowledge, const Motion& motion,

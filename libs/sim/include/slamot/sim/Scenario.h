@@ -56,6 +56,7 @@ struct SensorSetup
 /// [target_sensor]; config-ini/sim.experiment1.ini comments every key.
 struct Scenario
 {
+  std::string name;  ///< of its file, for messages
   Area area;
   double startTime = 0, dt = 0.025;  ///< [s]
   int steps = 320;
