@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -15,9 +16,14 @@ class TemporaryFolder
   TemporaryFolder()
   {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            ("slamot-" + std::string(test->test_suite_name()) + "-" + test->name() + "-" +
-             std::to_string(::getpid()));
+    std::string name = std::string("slamot-") + test->test_suite_name() + "-" + test->name() + "-" +
+                       std::to_string(::getpid());
+    std::replace(name.begin(), name.end(), '/', '-');  // of parameterised tests
+    // In memory where there is such a folder: some tests write thousands of small files.
+    const std::filesystem::path inMemory = "/dev/shm";
+    path_ = (::access(inMemory.c_str(), W_OK) == 0 ? inMemory
+                                                   : std::filesystem::temp_directory_path()) /
+            name;
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }

@@ -5,22 +5,37 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace slamot::mrpt
 {
 /// One object of a rawlog's outermost level.
 struct Entry
 {
-  std::string path;
-  std::size_t number = 0;    ///< from 0, as RawLogViewer and rawlog-edit count, comments included
-  std::uint64_t offset = 0;  ///< of its first byte in the file, unpacked
-  std::string className;
-  ::mrpt::serialization::CSerializable::Ptr object;  ///< null: a class that slamot does not use
+  enum class Kind
+  {
+    kActions,      ///< a CActionCollection; parts are its actions
+    kFrame,        ///< a CSensoryFrame; parts are its observations
+    kObservation,  ///< the one part
+    kComment       ///< the one part, a CObservationComment
+  };
+  struct Part
+  {
+    std::string className;
+    ::mrpt::serialization::CSerializable::Ptr object;  ///< null: a class that slamot does not use
+  };
 
+  std::string path;
+  std::size_t number = 0;    ///< from 0, comments included
+  std::uint64_t offset = 0;  ///< of its first byte [byte], unpacked
+  Kind kind = Kind::kObservation;
+  std::vector<Part> parts;
+
+  /// The object of a kObservation or kComment, if it is of this class.
   template <class T>
   [[nodiscard]] std::shared_ptr<const T> as() const
   {
-    return std::dynamic_pointer_cast<const T>(object);
+    return std::dynamic_pointer_cast<const T>(parts.at(0).object);
   }
 
   /// "run7.rawlog entry 88"

@@ -1,56 +1,187 @@
 #include "EntryReader.h"
 
-#include <mrpt/core/exceptions.h>
-#include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/serialization/CArchive.h>
+#include "MemoryArchive.h"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
 
 namespace slamot::mrpt
 {
-struct EntryReader::Impl
-{
-  std::string path;
-  ::mrpt::io::CFileGZInputStream file;
-  std::size_t count = 0;
-};
+using core::Error;
+using core::ExitStatus;
 
-EntryReader::EntryReader(const std::string& path) : impl_(std::make_unique<Impl>())
+namespace
 {
-  impl_->path = path;
-  if (!impl_->file.open(path))
-    throw core::Error(core::ExitStatus::kUnreadable, path, "can't be read", "give a rawlog");
+constexpr std::size_t kFirstRead = 1u << 20;  // [byte]
 }
-
-EntryReader::~EntryReader() = default;
 
 std::optional<Entry> EntryReader::next()
 {
-  if (impl_->file.checkEOF()) return std::nullopt;
-  auto archive = ::mrpt::serialization::archiveFrom(impl_->file);
-  Entry entry;
-  entry.path = impl_->path;
-  entry.number = impl_->count++;
-  try
+  if (begin_ == end_ && !grow())
   {
-    entry.object = archive.ReadObject();
-  }
-  catch (const ::mrpt::serialization::CExceptionEOF&)
-  {
+    if (input_.truncated())
+      throw Error(ExitStatus::kTruncated, where(0), "the gz file ends before its end mark",
+                  "use the intact first part with --salvage");
     return std::nullopt;
   }
-  catch (const std::exception&)
+  for (;;)
   {
-    entry.fail("can't be read", "check the file", core::ExitStatus::kUnreadable);
+    ByteCursor cursor(window_.data() + begin_, end_ - begin_);
+    std::vector<Extent> parts;
+    try
+    {
+      const Entry::Kind kind = walk(cursor, parts);
+      Entry entry = parse(kind, parts);
+      begin_ += cursor.at();
+      offset_ += cursor.at();
+      ++count_;
+      return entry;
+    }
+    catch (const NeedMore&)
+    {
+      if (!grow()) failAtEnd();
+    }
+    catch (const Damage& damage)
+    {
+      fail(damage);
+    }
   }
-  if (entry.object) entry.className = entry.object->GetRuntimeClass()->className;
+}
+
+bool EntryReader::grow()
+{
+  if (atEnd_) return false;
+  const std::size_t held = end_ - begin_;
+  if (held >= kLargestEntry)
+    throw Error(ExitStatus::kLimit, where(0),
+                "an entry of over " + std::to_string(kLargestEntry >> 20) + " MB",
+                "take it out with rawlog-edit --cut");
+  std::copy(window_.begin() + static_cast<std::ptrdiff_t>(begin_),
+            window_.begin() + static_cast<std::ptrdiff_t>(end_), window_.begin());
+  begin_ = 0, end_ = held;
+  const std::size_t wanted = std::max(kFirstRead, held);
+  if (window_.size() < held + wanted) window_.resize(held + wanted);
+  const std::size_t got = input_.read(window_.data() + held, wanted);
+  end_ += got;
+  atEnd_ = got < wanted;
+  return got > 0;
+}
+
+Entry::Kind EntryReader::walk(ByteCursor& cursor, std::vector<Extent>& parts) const
+{
+  const ByteCursor start = cursor;
+  const ObjectHeader header = readHeader(cursor);
+  const bool isFrame = header.id == classId<::mrpt::obs::CSensoryFrame>();
+  if (!isFrameOrActions(header))
+  {
+    cursor = start;
+    parts.push_back(walkPart(cursor, Level::kLog, true));
+    return header.id == classId<::mrpt::obs::CObservationComment>() ? Entry::Kind::kComment
+                                                                    : Entry::Kind::kObservation;
+  }
+  requireVersion(cursor, header, isFrame ? 1 : 0, isFrame ? 2 : 0);
+  if (isFrame && header.version == 1) cursor.skip(sizeof(std::uint32_t));
+  const std::uint32_t n = cursor.count(kMostParts, 1, isFrame ? "observations" : "actions");
+  for (std::uint32_t i = 0; i < n; ++i)
+    parts.push_back(walkPart(cursor, isFrame ? Level::kFrame : Level::kActions, i + 1 == n));
+  requireEndFlag(cursor, header.name);
+  return isFrame ? Entry::Kind::kFrame : Entry::Kind::kActions;
+}
+
+EntryReader::Extent EntryReader::walkPart(ByteCursor& cursor, Level level, bool last) const
+{
+  const ByteCursor start = cursor;
+  Extent part{readHeader(cursor), start.at(), 0};
+  if (part.header.id == nullptr && !part.header.isNull())
+    start.damage("class '" + part.header.name + "' is unknown", "load its plugin with --plugin",
+                 ExitStatus::kUnreadable);
+  if (!belongs(part.header, level))
+    start.damage("a " + part.header.name + " does not belong there", "give a rawlog",
+                 ExitStatus::kUnreadable);
+  if (part.header.isNull())
+    requireEndFlag(cursor, part.header.name);
+  else if (hasLayout(part.header))
+    walkObject(cursor, part.header);
+  else
+    skipUnknown(cursor, level, last, atEnd_);
+  part.end = cursor.at();
+  return part;
+}
+
+Entry EntryReader::parse(Entry::Kind kind, const std::vector<Extent>& parts) const
+{
+  Entry entry;
+  entry.path = path_;
+  entry.number = count_;
+  entry.offset = offset_;
+  entry.kind = kind;
+  for (const Extent& part : parts) entry.parts.push_back(parsePart(part));
   return entry;
 }
 
-double EntryReader::progress() const
+Entry::Part EntryReader::parsePart(const Extent& extent) const
 {
-  const auto size = impl_->file.getTotalBytesCount();
-  const auto at = static_cast<double>(impl_->file.getPosition());
-  return size == 0 ? 1 : std::min(1.0, at / static_cast<double>(size));
+  Entry::Part part;
+  part.className = extent.header.id != nullptr ? extent.header.id->className : extent.header.name;
+  if (!hasLayout(extent.header)) return part;
+  MemoryArchive archive(window_.data() + begin_ + extent.begin, extent.end - extent.begin);
+  bool whole = false;
+  try
+  {
+    part.object = archive.ReadObject();
+    whole = part.object != nullptr && archive.left() == 0;
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw;
+  }
+  catch (const std::exception&)
+  {
+    // MRPT says "due to EOF" whatever the cause.
+  }
+  if (!whole)
+    throw Damage{extent.begin, "MRPT refuses a " + part.className,
+                 "look for an identity that comes twice, or record the file anew",
+                 ExitStatus::kNonsense};
+  return part;
+}
+
+std::string EntryReader::where(std::size_t at) const
+{
+  return path_ + " entry " + std::to_string(count_) + ", byte " + std::to_string(offset_ + at) +
+         (input_.packed() ? " unpacked" : "");
+}
+
+// The entry does not end with the file.  If others follow it, then it is its length that is wrong.
+void EntryReader::failAtEnd()
+{
+  ByteCursor cursor(window_.data() + begin_, end_ - begin_);
+  std::string name = "an entry's first bytes";
+  bool othersFollow = false;
+  try
+  {
+    const ObjectHeader header = readHeader(cursor);
+    name = "a " + header.name;
+    othersFollow = entryFollows(cursor, isFrameOrActions(header));
+  }
+  catch (const NeedMore&)
+  {
+  }
+  if (othersFollow)
+    fail({0, "a length or count in " + name + " goes beyond the end of the file",
+          "fetch or record the file anew", ExitStatus::kNonsense});
+  throw Error(ExitStatus::kTruncated, where(0), "the file ends inside " + name,
+              "use the intact first part with --salvage");
+}
+
+void EntryReader::fail(const Damage& damage)
+{
+  if (count_ == 0 && damage.at == 0 && damage.what == kNoObject)
+    throw Error(ExitStatus::kUnreadable, path_, "is not a rawlog", "give the path of a rawlog");
+  input_.drain();  // damaged gz data is the cause, and what came out of it only the consequence
+  throw Error(damage.status, where(damage.at), damage.what, damage.mend);
 }
 }  // namespace slamot::mrpt

@@ -1,27 +1,55 @@
 #pragma once
 
+#include "BoundedInput.h"
 #include "Entry.h"
+#include "objectLayout.h"
 
-#include <memory>
 #include <optional>
 
 namespace slamot::mrpt
 {
-/// Streams a rawlog's entries.
+/// Streams a rawlog's entries.  Of each, MRPT's parser sees only objects whose bytes have been
+/// walked over before; the bytes of classes that slamot does not use are skipped.
 class EntryReader
 {
  public:
-  explicit EntryReader(const std::string& path);
-  ~EntryReader();
+  static constexpr std::size_t kLargestEntry = 64u << 20;  ///< [byte]
+  static constexpr std::uint32_t kMostParts = 10000;       ///< in one frame or list of actions
 
-  /// None at the end.  \throws core::Error on a damaged file; kTruncated if it ends inside an
-  /// entry.
+  /// \throws core::Error (kUnreadable).
+  explicit EntryReader(const std::string& path) : path_(path), input_(path) {}
+
+  /// None at the end.  \throws core::Error with the entry and its byte: kUnreadable (no rawlog, an
+  /// unknown class, damaged), kTruncated (it ends inside an entry), kNonsense (counts and choices
+  /// that can't be), kLimit.
   std::optional<Entry> next();
   /// Share of the file read, 0 to 1.
-  [[nodiscard]] double progress() const;
+  [[nodiscard]] double progress() const { return input_.progress(); }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  /// The bytes of a part, its header included.
+  struct Extent
+  {
+    ObjectHeader header;
+    std::size_t begin, end;
+  };
+
+  bool grow();
+  Entry::Kind walk(ByteCursor& cursor, std::vector<Extent>& parts) const;
+  Extent walkPart(ByteCursor& cursor, Level level, bool last) const;
+  Entry parse(Entry::Kind kind, const std::vector<Extent>& parts) const;
+  Entry::Part parsePart(const Extent& extent) const;
+
+  [[nodiscard]] std::string where(std::size_t at) const;
+  [[noreturn]] void failAtEnd();
+  [[noreturn]] void fail(const Damage& damage);
+
+  std::string path_;
+  BoundedInput input_;
+  std::vector<unsigned char> window_;  // bytes at hand; [begin_, end_) are still to be read
+  std::size_t begin_ = 0, end_ = 0;
+  std::uint64_t offset_ = 0;  // of begin_ in the unpacked file
+  bool atEnd_ = false;        // the input holds no more than the window
+  std::size_t count_ = 0;
 };
 }  // namespace slamot::mrpt

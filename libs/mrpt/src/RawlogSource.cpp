@@ -1,7 +1,9 @@
-#include "StepAssembler.h"
+#include "scanLog.h"
 
 #include <slamot/core/Error.h>
 #include <slamot/mrpt/RawlogSource.h>
+
+#include <cstdio>
 
 namespace slamot::mrpt
 {
@@ -10,7 +12,7 @@ struct RawlogSource::Impl
   Impl(const std::string& p, const Options& o) : path(p), options(o) {}
 
   void scan();
-  void readStarts();
+  [[nodiscard]] std::string describe(const core::Error& truncation) const;
 
   std::string path;
   Options options;
@@ -40,53 +42,37 @@ RawlogSource::Options RawlogSource::Options::from(core::Config& config)
   return out;
 }
 
+// "WHERE: WHAT; HOW TO MEND", with what was done in place of how to mend it.
+std::string RawlogSource::Impl::describe(const core::Error& error) const
+{
+  const std::string text = error.what();
+  char used[96];
+  std::snprintf(used, sizeof used, "; used its intact first part, %zu steps to %.6f s", facts.steps,
+                facts.lastTime.value_or(0));
+  return text.substr(0, text.rfind("; ")) + used;
+}
+
 void RawlogSource::Impl::scan()
 {
-  StepAssembler pass(path, options, nullptr);
-  try
-  {
-    while (pass.next())
-    {
-    }
-  }
-  catch (const core::Error& e)
-  {
-    if (e.status() != core::ExitStatus::kTruncated || !options.salvage) throw;
-    truncation = e.what();
-  }
-  facts = pass.facts();
-  if (facts.steps == 0 && truncation.empty())
+  const LogScan scan = scanLog(path, options);
+  if (scan.truncation && !options.salvage) throw *scan.truncation;
+  facts = scan.facts;
+  if (scan.truncation) truncation = describe(*scan.truncation);
+  if (facts.steps == 0 && !scan.truncation)
     throw core::Error(core::ExitStatus::kUnreadable, path,
                       "holds no odometry, landmark sighting, blob or laser scan",
                       "see what it holds with slamot info");
-  const bool moves = facts.odometryPoseMoves || facts.odometryHasVelocities;
-  if (!facts.hasFrames && moves && options.odometry.fromLog)
+  if (lacksCovariance(facts) && options.odometry.fromLog)
     throw core::Error(core::ExitStatus::kConfig, path,
                       "its odometry (observations only) comes without covariance",
                       "set [odometry] noise = model, v_std_mps and omega_std_deg_per_s");
-}
-
-void RawlogSource::Impl::readStarts()
-{
-  core::Config comment;
-  // Others' comments are no ini files: only one with the section is held to its rules.
-  if (facts.comment.find("[start]") != std::string::npos)
-    comment = core::Config::parse(facts.comment, path + " comment text");
-  starts = core::Starts::from(comment);
-  if (comment.has("start"))
-  {
-    for (const std::string& section : comment.sections())
-      if (section != "start") comment.erase(section);
-    comment.requireAllRead();
-  }
-  if (!starts.time) starts.time = facts.restTime;
+  starts = startsOf(facts, path);
 }
 
 RawlogSource::RawlogSource(const std::string& path, const Options& options)
     : impl_(std::make_unique<Impl>(path, options))
 {
   impl_->scan();
-  impl_->readStarts();
   if (!impl_->facts.restTime) impl_->facts.restTime = impl_->starts.time;
   impl_->assembler = std::make_unique<StepAssembler>(path, options, &impl_->facts);
 }
@@ -95,6 +81,7 @@ RawlogSource::~RawlogSource() = default;
 
 std::optional<core::Step> RawlogSource::next()
 {
+  // A log that ends early is read no further than its last whole step.
   if (impl_->steps >= impl_->facts.steps) return std::nullopt;
   auto step = impl_->assembler->next();
   if (!step) return std::nullopt;

@@ -50,6 +50,7 @@ class StepAssembler
 
   const Entry* peek();
   void take();
+  void check(const core::Step& step) const;
   std::optional<core::Step> assemble();
   std::optional<core::Step> assemblePair();
   std::optional<core::Step> assembleGroup();

@@ -1,9 +1,9 @@
 #include "readMotion.h"
 
-#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/poses/CPosePDF.h>
 
 #include <cmath>
+#include <exception>
 
 namespace slamot::mrpt
 {
@@ -52,30 +52,34 @@ Gaussian<Pose2D> incrementOf(const CActionRobotMovement2D& action, const Entry& 
                        action.motionModelConfiguration.thrunModel);
   else
   {
-    const auto [cov, mean] = action.poseChange->getCovarianceAndMean();
-    out.mean = mean.asTPose();
-    out.cov = cov.asEigen();
+    try
+    {
+      const auto [cov, mean] = action.poseChange->getCovarianceAndMean();
+      out.mean = mean.asTPose();
+      out.cov = cov.asEigen();
+    }
+    catch (const std::exception&)
+    {
+      entry.fail("the odometry's covariance can't be had from its PDF", "mend the log");
+    }
   }
   if (!std::isfinite(out.mean.x + out.mean.y + out.mean.phi) || !out.cov.allFinite())
     entry.fail("the odometry is not a number", "mend the log");
   return out;
 }
 
-std::shared_ptr<const CActionRobotMovement2D> movementAmong(
-    const ::mrpt::obs::CActionCollection& actions, const Entry& entry)
+std::shared_ptr<const CActionRobotMovement2D> movementAmong(const Entry& actions)
 {
   std::shared_ptr<const CActionRobotMovement2D> found;
-  for (std::size_t i = 0; i < actions.size(); ++i)
+  for (const Entry::Part& part : actions.parts)
   {
-    const ::mrpt::obs::CAction& action = actions.get(i);
-    if (dynamic_cast<const ::mrpt::obs::CActionRobotMovement3D*>(&action) != nullptr)
-      entry.fail("holds a movement in 3D (CActionRobotMovement3D)", "give a log of planar odometry",
-                 core::ExitStatus::kUnreadable);
-    const auto* movement = dynamic_cast<const CActionRobotMovement2D*>(&action);
-    if (movement == nullptr ||
-        (found && movement->estimationMethod == CActionRobotMovement2D::emOdometry))
-      continue;
-    found = std::make_shared<CActionRobotMovement2D>(*movement);
+    if (part.className == "mrpt::obs::CActionRobotMovement3D")
+      actions.fail("holds a movement in 3D (CActionRobotMovement3D)",
+                   "give a log of planar odometry", core::ExitStatus::kUnreadable);
+    const auto movement = std::dynamic_pointer_cast<const CActionRobotMovement2D>(part.object);
+    if (movement &&
+        (!found || movement->estimationMethod == CActionRobotMovement2D::emScan2DMatching))
+      found = movement;
   }
   return found;
 }

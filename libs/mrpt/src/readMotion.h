@@ -2,7 +2,6 @@
 
 #include "Entry.h"
 
-#include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <slamot/math/gaussian.h>
 
@@ -16,8 +15,8 @@ namespace slamot::mrpt
 [[nodiscard]] Gaussian<Pose2D> incrementOf(const ::mrpt::obs::CActionRobotMovement2D& action,
                                            const Entry& entry);
 
-/// The movement among a step's actions: scan matching before odometry, as MRPT chooses; none if the
-/// robot did not report any.  \throws core::Error (kUnreadable) for a movement in 3D.
+/// The movement among an entry's actions: scan matching before odometry, as MRPT chooses; none if
+/// the robot did not report any.  \throws core::Error (kUnreadable) for a movement in 3D.
 [[nodiscard]] std::shared_ptr<const ::mrpt::obs::CActionRobotMovement2D> movementAmong(
-    const ::mrpt::obs::CActionCollection& actions, const Entry& entry);
+    const Entry& actions);
 }  // namespace slamot::mrpt

@@ -20,9 +20,12 @@ using obs::CObservationColorBlobs;
 
 constexpr double kRounding = 1e-6;  // of the floats that MRPT stores [m, rad]
 
-bool finite(const ::mrpt::poses::CPose3D& p)
+// Finite, and a rotation: MRPT reads any nine numbers as one.
+bool isPose(const ::mrpt::poses::CPose3D& p)
 {
-  return std::isfinite(p.x() + p.y() + p.z()) && p.getRotationMatrix().asEigen().allFinite();
+  const Matrix3 r = p.getRotationMatrix().asEigen();
+  return std::isfinite(p.x() + p.y() + p.z()) && r.allFinite() &&
+         (r * r.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < 1e-3;
 }
 
 bool inView(const core::FieldOfView& fov, double range, double bearing)
@@ -37,8 +40,8 @@ core::FieldOfView viewOf(const CObservationBearingRange& o, const Entry& entry)
   core::FieldOfView fov;
   if (!std::isfinite(o.minSensorDistance + o.maxSensorDistance + o.fieldOfView_yaw +
                      o.fieldOfView_pitch) ||
-      !finite(o.sensorLocationOnRobot))
-    entry.fail("the landmark sensor's pose or field of view is not a number", "mend the log");
+      !isPose(o.sensorLocationOnRobot))
+    entry.fail("the landmark sensor's pose or field of view makes no sense", "mend the log");
   fov.rangeMin = o.minSensorDistance;
   if (o.maxSensorDistance > 0) fov.rangeMax = o.maxSensorDistance;
   if (o.fieldOfView_yaw > 0 && o.fieldOfView_yaw < math::kTwoPi)
@@ -133,8 +136,8 @@ void addBlobs(core::Step& step, const CObservationColorBlobs& o, const Entry& en
 {
   const core::FieldOfView fov{o.rangeMin, o.rangeMax, o.bearingMin, o.bearingMax};
   if (!std::isfinite(fov.rangeMin + fov.rangeMax + fov.bearingMin + fov.bearingMax) ||
-      !finite(o.sensorPoseOnRobot))
-    entry.fail("the blob sensor's pose or field of view is not a number", "mend the log");
+      !isPose(o.sensorPoseOnRobot))
+    entry.fail("the blob sensor's pose or field of view makes no sense", "mend the log");
   const SensorFrame frame(o.sensorPoseOnRobot);
   const core::FieldOfView view = frame.view(fov);
   if (step.blobs)
@@ -147,7 +150,7 @@ void addBlobs(core::Step& step, const CObservationColorBlobs& o, const Entry& en
 // Counter-clockwise in the robot's plane, whichever way the sensor turns or is mounted.
 void addLaser(core::Step& step, const CObservation2DRangeScan& o, const Entry& entry)
 {
-  if (!finite(o.sensorPose) || !std::isfinite(o.aperture) || !(o.maxRange > 0))
+  if (!isPose(o.sensorPose) || !std::isfinite(o.aperture) || !(o.maxRange > 0))
     entry.fail("the laser's pose, aperture or largest range makes no sense", "mend the log");
   const std::size_t n = o.getScanSize();
   auto scan = std::make_shared<core::LaserScan>();

@@ -18,10 +18,12 @@ inline constexpr double kTicksPerSecond = 1e7;
       ::mrpt::Clock::duration(std::llround(seconds * kTicksPerSecond) + kTicksBefore1970));
 }
 
-/// None for INVALID_TIMESTAMP.
+/// None for INVALID_TIMESTAMP, which is 0, and for times before 1601 or after the year 9999.
 [[nodiscard]] inline std::optional<double> toSeconds(::mrpt::system::TTimeStamp t)
 {
-  if (t == ::mrpt::system::TTimeStamp()) return std::nullopt;
-  return static_cast<double>(t.time_since_epoch().count() - kTicksBefore1970) / kTicksPerSecond;
+  constexpr std::int64_t kEnd = 2650467744000000000;
+  const std::int64_t ticks = t.time_since_epoch().count();
+  if (ticks <= 0 || ticks >= kEnd) return std::nullopt;
+  return static_cast<double>(ticks - kTicksBefore1970) / kTicksPerSecond;
 }
 }  // namespace slamot::mrpt

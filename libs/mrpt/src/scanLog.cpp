@@ -1,0 +1,45 @@
+#include "scanLog.h"
+
+#include <slamot/core/Error.h>
+
+namespace slamot::mrpt
+{
+LogScan scanLog(const std::string& path, const RawlogSource::Options& options)
+{
+  LogScan out;
+  StepAssembler pass(path, options, nullptr);
+  try
+  {
+    while (pass.next())
+    {
+    }
+  }
+  catch (const core::Error& e)
+  {
+    if (e.status() != core::ExitStatus::kTruncated) throw;
+    out.truncation = e;
+  }
+  out.facts = pass.facts();
+  return out;
+}
+
+bool lacksCovariance(const LogFacts& facts)
+{
+  return !facts.hasFrames && (facts.odometryPoseMoves || facts.odometryHasVelocities);
+}
+
+core::Starts startsOf(const LogFacts& facts, const std::string& path)
+{
+  core::Config comment;
+  // Others' comments are no ini files: only one with the section is held to its rules.
+  if (facts.comment.find("[start]") != std::string::npos)
+    comment = core::Config::parse(facts.comment, path + " comment text");
+  core::Starts starts = core::Starts::from(comment);
+  std::vector<std::string> others;
+  for (const std::string& section : comment.sections())
+    if (section != "start") others.push_back(section);
+  comment.requireAllRead(others);
+  if (!starts.time) starts.time = facts.restTime;
+  return starts;
+}
+}  // namespace slamot::mrpt
