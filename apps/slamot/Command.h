@@ -20,6 +20,8 @@ struct CommonOptions
   bool quiet = false, verbose = false;
 
   void addTo(CLI::App& command);
+  /// \throws core::Error (kConfig) if one can't be loaded.
+  void loadPlugins() const;
 };
 
 /// Set by Ctrl-C; commands end at the next step's boundary.

@@ -18,6 +18,7 @@ void CommonOptions::addTo(CLI::App& command)
       .add_option_function<std::uint64_t>(
           "--seed", [this](std::uint64_t s) { seed = s, seedGiven = true; },
           "Seed of all randomness (default 1)")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command.add_option("--threads", threads, "Threads; results do not depend on them")
       ->check(CLI::Range(1, 1024))
@@ -56,6 +57,8 @@ int runCommand(int argc, char** argv)
   app.set_version_flag("--version", kVersion);
   app.require_subcommand(1);
   int status = 0;
+  slamot::apps::addRun(app, status);
+  slamot::apps::addEvaluate(app, status);
   slamot::apps::addSimulate(app, status);
   try
   {
@@ -76,7 +79,13 @@ int runCommand(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  std::signal(SIGINT, [](int) { slamot::apps::interrupted = true; });
+  // The first Ctrl-C asks, the second ends at once.
+  std::signal(SIGINT,
+              [](int)
+              {
+                slamot::apps::interrupted = true;
+                std::signal(SIGINT, SIG_DFL);
+              });
   try
   {
     slamot::filters::registerAll();

@@ -41,6 +41,23 @@ std::optional<Pose2D> rigid(const std::vector<RunWithTruth>& runs, double maxTru
 }
 }  // namespace
 
+std::vector<std::string> alignNames()
+{
+  return {"none", "first-pose", "rigid"};
+}
+
+std::string nameOf(Align align)
+{
+  return alignNames()[static_cast<std::size_t>(align)];
+}
+
+std::optional<Align> alignNamed(const std::string& name)
+{
+  for (const Align align : {Align::kNone, Align::kFirstPose, Align::kRigid})
+    if (nameOf(align) == name) return align;
+  return std::nullopt;
+}
+
 Pose2D rigidAlignment(const std::vector<Point2D>& from, const std::vector<Point2D>& to)
 {
   if (from.empty() || from.size() != to.size())

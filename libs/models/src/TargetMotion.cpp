@@ -1,7 +1,6 @@
 #include <slamot/models/TargetMotion.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace slamot::models
@@ -20,18 +19,6 @@ std::pair<double, double> headingOf(const Vector2& v, const Matrix2& cov)
   if (q <= 0) return {0.0, kUnknownHeadingVar};
   const Vector2 across(-v[1] / q, v[0] / q);
   return {std::atan2(v[1], v[0]), std::min(kUnknownHeadingVar, across.dot(cov * across))};
-}
-
-/// 2 x - 3 + 4 exp(-x) - exp(-2 x), also where that is a small difference of large numbers.
-double placeNoise(double x)
-{
-  const double u = -std::expm1(-x);
-  if (x > 0.05) return 2 * (x - u) - u * u;
-  constexpr std::array<double, 7> kSeries = {2. / 3,     -1. / 2,   7. / 30,     -1. / 12,
-                                             31. / 1260, -1. / 160, 127. / 90720};
-  double sum = 0;
-  for (std::size_t i = kSeries.size(); i-- > 0;) sum = sum * x + kSeries[i];
-  return sum * x * x * x;
 }
 }  // namespace
 
@@ -56,8 +43,7 @@ DifferentialDriveTarget::State DifferentialDriveTarget::start(const Start& start
   const auto [course, courseVar] = headingOf(v, vVar * Matrix2::Identity());
   s.headed = start.value[Start::kTheta] || moving;
   const double phi = start.get(Start::kTheta, course);
-  const double phiVar =
-      start.value[Start::kTheta] ? std::pow(start.getStd(Start::kTheta), 2) : courseVar;
+  const double phiVar = start.value[Start::kTheta] ? std::pow(start.getStd(Start::kTheta), 2) : courseVar;
   s.x << start.get(Start::kX), start.get(Start::kY), math::wrapToPi(phi),
       moving ? v.norm() : params_.speed, params_.turnRate;
   s.P.diagonal() << std::pow(start.getStd(Start::kX), 2), std::pow(start.getStd(Start::kY), 2),
@@ -86,9 +72,9 @@ void DifferentialDriveTarget::predict(State& s, double dt) const
   {
     s.sinceAnchor += dt;
     const double reach = std::hypot(s.x[3], std::sqrt(s.P(3, 3))) * dt;
-    // Steps in one direction add up: it is the deviation that grows by the way, not the variance.
-    const double std = std::sqrt(s.pointCov().trace());
-    s.P.topLeftCorner<2, 2>() += (0.5 * reach * reach + reach * std) * Matrix2::Identity();
+    // Steps in one direction add up: the deviation grows with time, not with its square root.
+    const double std = std::sqrt(std::max(s.P(0, 0), s.P(1, 1)));
+    s.P.topLeftCorner<2, 2>() += (reach * reach + 2 * reach * std) * 0.5 * Matrix2::Identity();
     return;
   }
   const double a = s.x[2] + s.x[4] * dt, c = std::cos(a), sn = std::sin(a), v = s.x[3];
@@ -104,8 +90,7 @@ void DifferentialDriveTarget::predict(State& s, double dt) const
   F(1, 4) = v * dt * dt * c;
   F(2, 4) = dt;
   const Eigen::Matrix<double, 3, 2> G = F.topRightCorner<3, 2>();
-  const Vector2 q(params_.speedNoise * params_.speedNoise,
-                  params_.turnRateNoise * params_.turnRateNoise);
+  const Vector2 q(params_.speedNoise * params_.speedNoise, params_.turnRateNoise * params_.turnRateNoise);
   s.P = (F * s.P * F.transpose()).eval();
   s.P.topLeftCorner<3, 3>() += G * q.asDiagonal() * G.transpose();
   s.P(3, 3) += params_.speedWalk * params_.speedWalk * dt;
@@ -119,8 +104,7 @@ void DifferentialDriveTarget::afterCorrection(State& s, const Gaussian<Point2D>*
   if (s.headed || !seenAt || s.sinceAnchor <= 0) return;
   const Vector2 d(seenAt->mean.x - s.anchor.x, seenAt->mean.y - s.anchor.y);
   const Matrix2 cov = s.anchorCov + seenAt->cov;
-  constexpr double kClearMove =
-      9.0;  // three deviations: the direction is good to a third of a radian
+  constexpr double kClearMove = 9.0;  // three deviations: the direction is good to a third of a radian
   if (d.squaredNorm() < kClearMove * cov.trace()) return;
   const double dt = s.sinceAnchor, distance = d.norm();
   const auto [course, courseVar] = headingOf(d / dt, cov / (dt * dt));
@@ -174,8 +158,9 @@ DampedVelocityTarget::State DampedVelocityTarget::start(const Start& start) cons
 {
   State s;
   const double v2 = params_.velocityStd * params_.velocityStd;
-  const auto velocityVar = [&](Start::Field f)
-  { return start.value[f] ? std::pow(start.getStd(f), 2) : v2; };
+  const auto velocityVar = [&](Start::Field f) {
+    return start.value[f] ? std::pow(start.getStd(f), 2) : v2;
+  };
   s.x << start.get(Start::kX), start.get(Start::kY), start.get(Start::kVx), start.get(Start::kVy);
   s.P.diagonal() << std::pow(start.getStd(Start::kX), 2), std::pow(start.getStd(Start::kY), 2),
       velocityVar(Start::kVx), velocityVar(Start::kVy);
@@ -195,14 +180,14 @@ void DampedVelocityTarget::predict(State& s, double dt) const
 {
   // Integrated Ornstein-Uhlenbeck process: Bar-Shalom, Li, Kirubarajan 2001, section 6.2 (Singer),
   // with the velocity in the acceleration's place.
-  const double T = params_.velocityTime, v2 = params_.velocityStd * params_.velocityStd;
-  const double forgotten = -std::expm1(-dt / T);
+  const double T = params_.velocityTime, e = std::exp(-dt / T), v2 = params_.velocityStd * params_.velocityStd;
+  const double g = T * (1 - e);
   Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
-  F(0, 2) = F(1, 3) = T * forgotten;
-  F(2, 2) = F(3, 3) = 1 - forgotten;
-  const double qvv = -v2 * std::expm1(-2 * dt / T);
-  const double qpv = v2 * T * forgotten * forgotten;
-  const double qpp = v2 * T * T * placeNoise(dt / T);
+  F(0, 2) = F(1, 3) = g;
+  F(2, 2) = F(3, 3) = e;
+  const double qvv = v2 * (1 - e * e);
+  const double qpv = v2 * T * (1 - e) * (1 - e);
+  const double qpp = std::max(0.0, v2 * T * (2 * dt - T * (3 - 4 * e + e * e)));
   s.x = (F * s.x).eval();
   s.P = (F * s.P * F.transpose()).eval();
   for (int axis = 0; axis < 2; ++axis)
@@ -236,8 +221,7 @@ TargetMotion targetMotionFrom(core::Params& p)
 {
   const std::string motion =
       p.choice("target_motion", {"differential-drive", "damped-velocity"}, "damped-velocity");
-  if (motion == "differential-drive")
-    return DifferentialDriveTarget(DifferentialDriveTarget::Params::from(p));
+  if (motion == "differential-drive") return DifferentialDriveTarget(DifferentialDriveTarget::Params::from(p));
   return DampedVelocityTarget(DampedVelocityTarget::Params::from(p));
 }
 }  // namespace slamot::models

@@ -1,6 +1,7 @@
 #include <mrpt/system/os.h>
 #include <slamot/core/Error.h>
 #include <slamot/core/version.h>
+#include <slamot/eval/Alignment.h>
 #include <slamot/math/statistics.h>
 #include <slamot/results/Summary.h>
 
@@ -148,9 +149,8 @@ std::string summaryJson(const RunInfo& info, const eval::Record& record,
 
 std::string evaluationJson(const eval::Record& record, const eval::Evaluation& evaluation)
 {
-  static constexpr std::array<const char*, 3> kAligns = {"none", "first-pose", "rigid"};
   const Pose2D& t = evaluation.truthFromMap;
-  Json out = {{"align", kAligns[static_cast<std::size_t>(evaluation.align)]},
+  Json out = {{"align", eval::nameOf(evaluation.align)},
               {"truth_from_map", {{"x_m", t.x}, {"y_m", t.y}, {"theta_rad", t.phi}}},
               {"robot",
                {{"all", detailedErrors(evaluation.robot.all)},

@@ -4,6 +4,11 @@
 
 namespace slamot::eval
 {
+/// none, first-pose, rigid.
+[[nodiscard]] std::vector<std::string> alignNames();
+[[nodiscard]] std::string nameOf(Align align);
+[[nodiscard]] std::optional<Align> alignNamed(const std::string& name);
+
 /// The rotation and translation, without scale, that takes `from` nearest to `to` in the sense of
 /// least squares.  Umeyama 1991, eq. 39-42 with c = 1, in closed form for the plane.  A single
 /// point, or all at one place, leaves the rotation 0.

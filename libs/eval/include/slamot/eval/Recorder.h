@@ -26,6 +26,7 @@ class Recorder : public core::Sink
 
   /// Whole once the run has finished.
   [[nodiscard]] const Record& record() const { return record_; }
+  [[nodiscard]] Record takeRecord() { return std::move(record_); }
 
  private:
   void addRow(const core::Estimate& estimate);

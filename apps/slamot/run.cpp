@@ -1,0 +1,203 @@
+#include <slamot/core/Error.h>
+#include <slamot/core/FilterRegistry.h>
+#include <slamot/eval/Alignment.h>
+#include <slamot/eval/Recorder.h>
+#include <slamot/mrpt/RawlogSource.h>
+#include <slamot/results/Report.h>
+#include <slamot/results/ResultFolder.h>
+#include <slamot/results/RunPlan.h>
+#include <slamot/results/StepTimer.h>
+#include <slamot/results/TruthFiles.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "Command.h"
+#include "Progress.h"
+
+namespace slamot::apps
+{
+namespace
+{
+using core::Error;
+using core::ExitStatus;
+
+constexpr const char* kReport = "report.html";
+
+struct RunCommand
+{
+  CommonOptions common;
+  std::string config, dataset, align;
+  bool salvage = false;
+};
+
+core::Config readConfig(const RunCommand& o)
+{
+  core::Config config = core::Config::load(o.config);
+  for (const std::string& assignment : o.common.set) config.set(assignment);
+  if (o.common.seedGiven) config.set("run", "seed", std::to_string(o.common.seed));
+  if (!o.align.empty()) config.set("run", "align", o.align);
+  return config;
+}
+
+std::unique_ptr<core::Filter> makeFilter(core::Config& config, const results::RunPlan& plan,
+                                         int threads, const eval::Truth& truth)
+{
+  core::FilterContext context;
+  context.starts = plan.starts;
+  context.seed = plan.seed;
+  context.threads = threads;
+  // The one method that is told the truth: the bound that others are held against.
+  if (plan.method == "true-pose-target" && !truth.robot.empty())
+    context.truePose = [&truth](double time)
+    {
+      const auto pose = truth.robot.at(time);
+      return pose ? std::optional<Pose2D>(pose->pose) : std::nullopt;
+    };
+  const core::FilterRegistry& registry = core::FilterRegistry::instance();
+  auto filter = registry.make(plan.method, config, context);
+  config.requireAllRead(registry.names());
+  return filter;
+}
+
+std::string configText(const RunCommand& o, const core::Config& config)
+{
+  std::string text = "// slamot run config.ini " + o.dataset;
+  for (const std::string& plugin : o.common.plugins) text += " --plugin " + plugin;
+  return text + "\n\n" + config.effectiveText();
+}
+
+// Why the log ended early, and what was used of it.
+std::string salvaged(const std::string& truncation, const eval::Record& record)
+{
+  const double span = record.steps.empty() ? 0 : record.steps.back().time - record.steps[0].time;
+  char text[96];
+  std::snprintf(text, sizeof text, "; its first %zu steps, %.2f s, were used", record.steps.size(),
+                span);
+  return truncation.substr(0, truncation.rfind("; ")) + text;
+}
+
+/// One run, from the opened log to its result folder.
+class Run
+{
+ public:
+  explicit Run(const RunCommand& o)
+      : o_(o),
+        config_(readConfig(o)),
+        method_(core::methodOf(config_)),
+        folder_(o.common.output.empty() ? results::defaultFolder(method_, o.dataset)
+                                        : o.common.output),
+        source_(o.dataset, sourceOptions()),
+        plan_(results::planRun(config_, source_.starts())),
+        truth_(results::loadTruth(results::truthFolder(o.dataset))),
+        filter_(makeFilter(config_, plan_, o.common.threads, truth_))
+  {
+    results::requirePlaceFor(folder_);
+  }
+
+  ExitStatus execute()
+  {
+    results::StepTimer timer(source_);
+    eval::Recorder recorder(*filter_, {true});
+    std::exception_ptr failure;
+    bool wasInterrupted = false;
+    try
+    {
+      Progress progress("steps", o_.common.quiet);
+      const auto show = [&](std::size_t n, double share) { progress.update(n, share); };
+      wasInterrupted =
+          core::run(timer, *filter_, {&timer, &recorder}, {&interrupted, show}).interrupted;
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
+    }
+    eval::Record record = recorder.takeRecord();
+    record.complete = record.complete && source_.truncation().empty();
+    if (!record.steps.empty()) write(record, timer.timing());
+    if (failure) std::rethrow_exception(failure);
+    return conclude(record, wasInterrupted);
+  }
+
+ private:
+  mrpt::RawlogSource::Options sourceOptions()
+  {
+    mrpt::RawlogSource::Options options = mrpt::RawlogSource::Options::from(config_);
+    options.salvage = o_.salvage;
+    return options;
+  }
+
+  void write(const eval::Record& record, const results::Timing& timing) const
+  {
+    eval::EvaluationOptions options;
+    options.align = plan_.align;
+    const eval::Evaluation evaluation = eval::evaluate(record, truth_, options);
+    const results::RunInfo info{plan_.method, o_.dataset, plan_.seed, configText(o_, config_)};
+    std::string warning;
+    results::writeResult(folder_, info, record, evaluation, timing,
+                         [&](const std::string& folder)
+                         {
+                           warning = results::writeReport(
+                               (std::filesystem::path(folder) / kReport).string(), info,
+                               {record, truth_, evaluation});
+                         });
+    if (o_.common.quiet) return;
+    if (!warning.empty()) std::fprintf(stderr, "slamot: warning: %s\n", warning.c_str());
+    std::printf("%s on %s: %zu steps, %zu observations, %.2f s%s\n%s", plan_.method.c_str(),
+                o_.dataset.c_str(), record.steps.size(), record.observations, timing.wallS,
+                record.complete ? "" : ", incomplete",
+                results::summaryTable(record, evaluation).c_str());
+    std::printf("report: %s\n", (std::filesystem::path(folder_) / kReport).c_str());
+  }
+
+  [[nodiscard]] ExitStatus conclude(const eval::Record& record, bool wasInterrupted) const
+  {
+    if (wasInterrupted) return ExitStatus::kInterrupted;
+    if (source_.truncation().empty()) return ExitStatus::kDone;
+    std::fprintf(stderr, "slamot: error: %s\n", salvaged(source_.truncation(), record).c_str());
+    return ExitStatus::kTruncated;
+  }
+
+  const RunCommand& o_;
+  core::Config config_;
+  std::string method_, folder_;
+  mrpt::RawlogSource source_;
+  results::RunPlan plan_;
+  eval::Truth truth_;
+  std::unique_ptr<core::Filter> filter_;
+};
+}  // namespace
+
+void addRun(CLI::App& app, int& status)
+{
+  auto o = std::make_shared<RunCommand>();
+  CLI::App* command =
+      app.add_subcommand("run",
+                         "Run one filter over one rawlog and write a result folder.\n"
+                         "Example: slamot run config-ini/rbpf-slamot.experiment1.ini "
+                         "share/datasets/experiment1.rawlog");
+  o->common.addTo(*command);
+  command->get_option("--output")
+      ->description("The result folder (default slamot-out/<method>-<dataset>)");
+  command->add_option("config", o->config, "The configuration")
+      ->required()
+      ->type_name("CONFIG.ini");
+  command
+      ->add_option("dataset", o->dataset, "The log; truth in X.truth/, if any, is for the summary")
+      ->required()
+      ->type_name("X.rawlog");
+  command->add_flag("--salvage", o->salvage, "Use the intact first part of a truncated log");
+  command
+      ->add_option("--align", o->align,
+                   "How errors lay the map over the truth (default none where the start is given, "
+                   "else first-pose)")
+      ->check(CLI::IsMember(eval::alignNames()));
+  command->callback(
+      [o, &status]
+      {
+        o->common.loadPlugins();
+        status = static_cast<int>(Run(*o).execute());
+      });
+}
+}  // namespace slamot::apps

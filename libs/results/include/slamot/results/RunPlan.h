@@ -1,0 +1,26 @@
+#pragma once
+
+#include <slamot/core/Config.h>
+#include <slamot/core/Start.h>
+#include <slamot/eval/Evaluation.h>
+
+#include <cstdint>
+#include <string>
+
+namespace slamot::results
+{
+/// What a config asks for on one log.
+struct RunPlan
+{
+  std::string method;
+  std::uint64_t seed = 1;
+  core::Starts starts;
+  eval::Align align = eval::Align::kNone;
+};
+
+/// Reads [run] (method, seed, align) and [start].  A config without [start] takes over the log's,
+/// so that the effective config repeats the run.  Unless [run] says otherwise, results are not
+/// aligned where the robot's start was given, else by the first pose.
+/// \throws core::Error (kConfig).
+[[nodiscard]] RunPlan planRun(core::Config& config, const core::Starts& ofLog);
+}  // namespace slamot::results
