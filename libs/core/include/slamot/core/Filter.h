@@ -33,6 +33,6 @@ struct FilterContext
   int threads = 1;
   /// The robot's true pose at a time, if known there: only for the bound `true-pose-target`, which
   /// says so by its name.  Empty for every other filter.
-  std::function<std::optional<Pose2D>(double time)> truePose;
+  std::function<std::optional<Pose2D>(double time)> truePose{};
 };
 }  // namespace slamot::core
