@@ -5,6 +5,17 @@
 #include <mrpt/version.h>
 
 #if MRPT_VERSION >= 0x030000
+/// `#include SLAMOT_VIZ(CText3D.h)`: a header of what can be drawn.
+#define SLAMOT_VIZ(header) <mrpt/viz/header>
+#define SLAMOT_SCENE_HEADER <mrpt/viz/Scene.h>
+namespace mrpt::viz
+{
+class Scene;
+}
+namespace slamot::mrpt
+{
+using MrptScene = ::mrpt::viz::Scene;
+}
 #include <mrpt/viz/CSetOfObjects.h>
 #include <mrpt/viz/Visualizable.h>
 namespace slamot_viz = ::mrpt::viz;
@@ -14,7 +25,20 @@ namespace slamot_viz = ::mrpt::viz;
   {                                                     \
     return member;                                      \
   }
+/// What an off-screen renderer draws from; arguments: CFBORender, MrptScene, CCamera.
+#define SLAMOT_SET_CAMERA(renderer, scene, camera) (renderer).setCamera(camera)
 #else
+#define SLAMOT_VIZ(header) <mrpt/opengl/header>
+#define SLAMOT_SCENE_HEADER <mrpt/opengl/COpenGLScene.h>
+namespace mrpt::opengl
+{
+class COpenGLScene;
+}
+namespace slamot::mrpt
+{
+using MrptScene = ::mrpt::opengl::COpenGLScene;
+}
+#define SLAMOT_SET_CAMERA(renderer, scene, camera) (renderer).setCamera(scene, camera)
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/Visualizable.h>
 namespace slamot_viz = ::mrpt::opengl;

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <slamot/core/Estimate.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slamot::mrpt
+{
+using Polyline = std::vector<Point2D>;
+
+/// Something that moves.
+struct SceneTrack
+{
+  std::string name;
+  std::vector<Polyline> path;           ///< as estimated; in pieces where it was lost
+  std::vector<Polyline> truth;          ///< empty: not known
+  std::optional<Gaussian<Pose2D>> now;  ///< where it is at the end; none: lost
+};
+
+/// A run as a scene, all in the map's frame.
+struct SceneData
+{
+  std::string title;
+  SceneTrack robot;
+  std::vector<SceneTrack> targets;
+  std::vector<core::LandmarkEstimate> landmarks;
+  std::vector<Point2D> trueLandmarks;
+  std::vector<Point2D> laserPoints;
+  std::vector<core::WeightedPose> particles;  ///< at the end
+};
+
+/// Writes a .3Dscene for SceneViewer3D: paths as ribbons, landmarks as posts on their 95% ellipses,
+/// truth as thin dark lines and crosses, a legend and a grid.  The same data gives the same bytes.
+/// The file is written whole or not at all.  \throws core::Error (kUnreadable) if it can't be.
+void saveScene(const std::string& path, const SceneData& data);
+
+/// How to look at a scene.
+struct RenderOptions
+{
+  bool fromAbove = false;          ///< else from the side, in perspective
+  int width = 1280, height = 960;  ///< [px]
+};
+
+/// Draws a .3Dscene file to a PNG, with neither display nor graphics card.
+/// \throws core::Error: kUnreadable if the scene can't be read or the picture not be written;
+/// kInternal where there is no OpenGL at all.
+void renderScene(const std::string& scenePath, const std::string& pngPath,
+                 const RenderOptions& options);
+}  // namespace slamot::mrpt

@@ -1,0 +1,180 @@
+#include <slamot/mrpt/Scene.h>
+
+#include "Legend.h"
+#include "Mesh.h"
+#include "SceneFrame.h"
+
+#include <array>
+#include <filesystem>
+
+#include SLAMOT_SCENE_HEADER
+#include SLAMOT_VIZ(CGridPlaneXY.h)
+#include SLAMOT_VIZ(CPointCloud.h)
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include "GzWriter.h"
+
+namespace slamot::mrpt
+{
+namespace
+{
+using Colour = ::mrpt::img::TColor;
+
+// The colours of the report's plots.
+const Colour kRobot(0x00, 0x72, 0xb2), kLandmark(0x00, 0x9e, 0x73), kTruth(0x24, 0x29, 0x2f);
+const Colour kFaint(0xad, 0xb5, 0xbd), kLaser(0x8c, 0x95, 0x9f), kParticle(0x56, 0xb4, 0xe9);
+constexpr std::size_t kNamedTargets = 6;  // more do not fit the legend
+const std::array<Colour, 5> kTargets{Colour(0xd5, 0x5e, 0x00), Colour(0xb0, 0x57, 0x8d),
+                                     Colour(0xe6, 0x9f, 0x00), Colour(0x56, 0xb4, 0xe9),
+                                     Colour(0x00, 0x9e, 0x73)};
+
+/// Heights [in the frame's unit]: far enough apart for a depth buffer whose clip planes a file
+/// can't tell.
+enum Layer
+{
+  kGridLayer = 0,
+  kLaserLayer = 1,
+  kEllipseLayer = 2,
+  kPathLayer = 3,
+  kTruthLayer = 4,
+  kBodyLayer = 5
+};
+
+class SceneBuilder
+{
+ public:
+  explicit SceneBuilder(const SceneData& data) : data_(data), frame_(data) {}
+
+  MrptScene build()
+  {
+    addGround();
+    addPoints("laser points", data_.laserPoints, kLaser, kLaserLayer, 2);
+    addLandmarks();
+    addTrack(data_.robot, kRobot);
+    for (std::size_t i = 0; i < data_.targets.size(); ++i)
+      addTrack(data_.targets[i], kTargets[i % kTargets.size()]);
+    addTruth();
+    addParticles();
+    scene_.getViewport()->setCustomBackgroundColor({1.0f, 1.0f, 1.0f});
+    addLegend();
+    return scene_;
+  }
+
+ private:
+  void addLegend()
+  {
+    Legend legend(scene_, data_.title);
+    legend.line(data_.robot.name, kRobot);
+    for (std::size_t i = 0; i < std::min<std::size_t>(data_.targets.size(), kNamedTargets); ++i)
+      legend.line(data_.targets[i].name, kTargets[i % kTargets.size()]);
+    if (!data_.robot.truth.empty()) legend.thinLine("true paths", kTruth);
+    if (!data_.landmarks.empty()) legend.ellipse("landmarks, 95%", kLandmark);
+    if (!data_.trueLandmarks.empty()) legend.cross("true landmarks", kTruth);
+    if (!data_.laserPoints.empty()) legend.dots("laser points", kLaser);
+    if (!data_.particles.empty()) legend.dots("particles", kParticle);
+    legend.thinLine("grid of " + frame_.gridText(), kFaint);
+    legend.finish();
+  }
+
+  [[nodiscard]] double u() const { return frame_.unit; }
+  [[nodiscard]] double z(int layer) const { return 0.5 * u() * layer; }
+
+  void addGround()
+  {
+    auto grid = slamot_viz::CGridPlaneXY::Create(
+        static_cast<float>(frame_.xMin), static_cast<float>(frame_.xMax),
+        static_cast<float>(frame_.yMin), static_cast<float>(frame_.yMax),
+        static_cast<float>(z(kGridLayer)), static_cast<float>(frame_.gridStep));
+    grid->setColor_u8(kFaint);
+    grid->setName("grid");
+    scene_.insert(grid);
+  }
+
+  void addPoints(const std::string& name, const std::vector<Point2D>& points, const Colour& colour,
+                 int layer, float size)
+  {
+    if (points.empty()) return;
+    auto cloud = slamot_viz::CPointCloud::Create();
+    for (const Point2D& p : points)
+      cloud->insertPoint(static_cast<float>(p.x), static_cast<float>(p.y),
+                         static_cast<float>(z(layer)));
+    cloud->setColor_u8(colour);
+    cloud->setPointSize(size);
+    cloud->setName(name);
+    scene_.insert(cloud);
+  }
+
+  void addLandmarks()
+  {
+    Mesh ellipses(kLandmark), posts(kLandmark), crosses(kTruth);
+    for (const auto& l : data_.landmarks)
+    {
+      ellipses.ellipse(l.position, 0.15 * u(), z(kEllipseLayer));
+      posts.post(l.position.mean, 0.35 * u(), 0, 4 * u());
+    }
+    for (const Point2D& p : data_.trueLandmarks)
+      crosses.cross(p, 1.0 * u(), 0.22 * u(), z(kTruthLayer));
+    if (!data_.landmarks.empty())
+    {
+      scene_.insert(ellipses.object("landmark ellipses"));
+      scene_.insert(posts.object("landmarks"));
+    }
+    if (!data_.trueLandmarks.empty()) scene_.insert(crosses.object("true landmarks"));
+  }
+
+  void addTrack(const SceneTrack& track, const Colour& colour)
+  {
+    Mesh path(colour);
+    for (const Polyline& piece : track.path) path.ribbon(piece, 0.5 * u(), z(kPathLayer));
+    scene_.insert(path.object(track.name + " path"));
+    if (!track.now) return;
+    const Gaussian<Pose2D>& now = *track.now;
+    const Point2D place{now.mean.x, now.mean.y};
+    Mesh ellipse(colour);
+    ellipse.ellipse({place, now.cov.topLeftCorner<2, 2>()}, 0.15 * u(), z(kEllipseLayer));
+    scene_.insert(ellipse.object(track.name + " ellipse"));
+    Mesh body(colour);
+    body.prism(place, dart(now.mean, 3.5 * u()), z(kBodyLayer), z(kBodyLayer) + 1.5 * u());
+    scene_.insert(body.object(track.name));
+  }
+
+  void addTruth()
+  {
+    Mesh lines(kTruth);
+    bool any = false;
+    const auto add = [&](const SceneTrack& track)
+    {
+      for (const Polyline& piece : track.truth) lines.ribbon(piece, 0.18 * u(), z(kTruthLayer));
+      any = any || !track.truth.empty();
+    };
+    add(data_.robot);
+    for (const SceneTrack& track : data_.targets) add(track);
+    if (any) scene_.insert(lines.object("true paths"));
+  }
+
+  void addParticles()
+  {
+    std::vector<Point2D> places;
+    for (const auto& p : data_.particles) places.push_back({p.pose.x, p.pose.y});
+    addPoints("particles", places, kParticle, kBodyLayer + 4, 3);
+  }
+
+  const SceneData& data_;
+  SceneFrame frame_;
+  MrptScene scene_;
+};
+}  // namespace
+
+void saveScene(const std::string& path, const SceneData& data)
+{
+  const MrptScene scene = SceneBuilder(data).build();
+  ::mrpt::io::CMemoryStream bytes;
+  auto archive = ::mrpt::serialization::archiveFrom(bytes);
+  archive << scene;
+  GzWriter file(path);
+  file.write(bytes.getRawBufferData(), bytes.getTotalBytesCount());
+  file.close();
+}
+}  // namespace slamot::mrpt
