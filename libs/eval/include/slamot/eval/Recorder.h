@@ -29,8 +29,7 @@ class Recorder : public core::Sink
   [[nodiscard]] Record takeRecord() { return std::move(record_); }
 
  private:
-  void addRow(double time, const core::Estimate& estimate);
-  void replaceRow(const core::Estimate& estimate);
+  void addRow(const core::Estimate& estimate);
   void addTargets(const core::Estimate& estimate);
   void addPairings(const core::Step& step, const core::Update& update);
   void addLasers(const core::Step& step);
