@@ -1,0 +1,113 @@
+#include "rbpf/PoseUpdate.h"
+
+#include <gtest/gtest.h>
+#include <slamot/math/gaussian.h>
+#include <slamot/math/random.h>
+
+namespace slamot::filters::rbpf
+{
+namespace
+{
+using math::RandomStream;
+using models::RangeBearing;
+
+double logNormal(const Eigen::VectorXd& nu, const Eigen::MatrixXd& S)
+{
+  return -0.5 * (nu.dot(S.inverse() * nu) + std::log(S.determinant()) +
+                 static_cast<double>(nu.size()) * std::log(math::kTwoPi));
+}
+
+Matrix3 drawPrior(RandomStream& random, int rank)
+{
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3, std::max(rank, 1));
+  for (int i = 0; i < rank; ++i) A.col(i) << random.normal(), random.normal(), random.normal();
+  return 0.01 * A * A.transpose();
+}
+
+/// The dense joint Gaussian of a pose and its landmarks, linearised as PoseUpdate does.
+struct Dense
+{
+  explicit Dense(int landmarks)
+      : P(Eigen::MatrixXd::Zero(3 + 2 * landmarks, 3 + 2 * landmarks)),
+        H(Eigen::MatrixXd::Zero(2 * landmarks, 3 + 2 * landmarks)),
+        R(Eigen::MatrixXd::Zero(2 * landmarks, 2 * landmarks)),
+        nu(2 * landmarks)
+  {
+  }
+  Eigen::MatrixXd P, H, R;
+  Eigen::VectorXd nu;
+  double atPrior = 0;  // log likelihood of the sightings if the pose were the prior's mean
+};
+
+Dense draw(RandomStream& random, int landmarks, const Matrix3& P0, PoseUpdate& update)
+{
+  Dense d(landmarks);
+  d.P.topLeftCorner<3, 3>() = P0;
+  const Pose2D x0{1, -2, random.uniform(-3, 3)};
+  for (int i = 0; i < landmarks; ++i)
+  {
+    const Point2D m{x0.x + random.uniform(-6, 6), x0.y + random.uniform(-6, 6)};
+    const double c = random.uniform(-0.9, 0.9) * 0.02;
+    const Matrix2 C = (Matrix2() << 0.02, c, c, 0.03).finished();
+    const Vector2 z =
+        RangeBearing::predict(x0, m) + Vector2(0.1 * random.normal(), 0.05 * random.normal());
+    Innovation o{};
+    EXPECT_TRUE(
+        innovate(Eye(x0), Ray::of(z[0], z[1], 0.1, 0.02), m.x, m.y, C(0, 0), c, C(1, 1), o));
+    update.add(o);
+    const auto J = RangeBearing::jacobians(x0, m);
+    d.P.block<2, 2>(3 + 2 * i, 3 + 2 * i) = C;
+    d.H.block<2, 3>(2 * i, 0) = J.pose;
+    d.H.block<2, 2>(2 * i, 3 + 2 * i) = J.point;
+    d.R.block<2, 2>(2 * i, 2 * i) = RangeBearing(0.1, 0.02).noise();
+    d.nu.segment<2>(2 * i) << o.nuR, o.nuB;
+    d.atPrior += logNormal(d.nu.segment<2>(2 * i),
+                           J.point * C * J.point.transpose() + RangeBearing(0.1, 0.02).noise());
+  }
+  return d;
+}
+}  // namespace
+
+// Also for priors of rank two (a control with two noises), one, and none (a pose that is known).
+TEST(PoseUpdate, EqualsTheDenseJointGaussian)
+{
+  RandomStream random{1};
+  for (int trial = 0; trial < 400; ++trial)
+  {
+    const int rank = trial % 4, landmarks = 1 + trial % 6;
+    const Matrix3 P0 = drawPrior(random, rank);
+    PoseUpdate update;
+    const Dense d = draw(random, landmarks, P0, update);
+    const Eigen::MatrixXd S = d.H * d.P * d.H.transpose() + d.R;
+    const Eigen::MatrixXd K = d.P * d.H.transpose() * S.inverse();
+    const Eigen::MatrixXd P = d.P - K * d.H * d.P;
+    const auto r = update.solve(P0);
+    EXPECT_LE((r.shift - (K * d.nu).head<3>()).norm(), 1e-11);
+    EXPECT_LE((r.cov - P.topLeftCorner<3, 3>()).norm(), 1e-11 * (1e-3 + P0.norm()));
+    EXPECT_NEAR(r.logGain, logNormal(d.nu, S) - d.atPrior, 1e-8 * (1 + std::abs(d.atPrior)));
+    EXPECT_EQ(math::asymmetry(r.cov), 0);
+    EXPECT_GE(math::smallestEigenvalue(r.cov), -1e-15);
+  }
+}
+
+TEST(PoseUpdate, WithoutSightingsKeepsThePrior)
+{
+  RandomStream random{2};
+  const Matrix3 P0 = drawPrior(random, 3);
+  const auto r = PoseUpdate().solve(P0);
+  EXPECT_TRUE(r.shift.isZero());
+  EXPECT_TRUE(r.cov.isApprox(P0, 1e-14));
+  EXPECT_EQ(r.logGain, 0);
+}
+
+TEST(PoseUpdate, OfAKnownPoseTellsNothing)
+{
+  RandomStream random{3};
+  PoseUpdate update;
+  (void)draw(random, 4, Matrix3::Zero(), update);
+  const auto r = update.solve(Matrix3::Zero());
+  EXPECT_TRUE(r.shift.isZero());
+  EXPECT_TRUE(r.cov.isZero());
+  EXPECT_EQ(r.logGain, 0);
+}
+}  // namespace slamot::filters::rbpf
