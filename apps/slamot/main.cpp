@@ -59,7 +59,9 @@ int runCommand(int argc, char** argv)
   int status = 0;
   slamot::apps::addRun(app, status);
   slamot::apps::addEvaluate(app, status);
+  slamot::apps::addInfo(app, status);
   slamot::apps::addSimulate(app, status);
+  slamot::apps::addStudy(app, status);
   try
   {
     app.parse(argc, argv);

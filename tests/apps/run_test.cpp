@@ -175,6 +175,7 @@ TEST(SlamotRun, SaysInOneLineWhatIsWrongAndLeavesNothing)
   expectOneErrorLine(place.slamot("run dr.ini log.rawlog --seed -1"), 1, "seed");
   expectOneErrorLine(place.slamot("run dr.ini log.rawlog -p absent.so"), 1, "absent.so");
   expectOneErrorLine(place.slamot("run dr.ini log.rawlog -o mine"), 1, "mine");
+  expectOneErrorLine(place.slamot("run dr.ini absent.rawlog"), 2, "absent.rawlog");
   expectOneErrorLine(place.slamot("run dr.ini junk.rawlog"), 2, "junk.rawlog");
   EXPECT_FALSE(place.has("slamot-out"));
   EXPECT_EQ(place.read("mine/thesis.tex"), "years");
@@ -197,6 +198,21 @@ TEST(SlamotRun, LeavesAnIncompleteResultWhenInterrupted)
   EXPECT_EQ(summary["complete"], false);
   EXPECT_LT(summary["steps"].get<int>(), kSteps);
   EXPECT_EQ(lines(place.read("out/robot.tum")), summary["steps"].get<std::size_t>() + 1);
+}
+
+TEST(SlamotRun, UsesTheIntactPartOfATruncatedLogOnlyWhenToldTo)
+{
+  const Workplace place;
+  place.writeLog("long.rawlog", 2000);
+  const std::string whole = place.read("long.rawlog");
+  place.write("cut.rawlog", whole.substr(0, whole.size() / 2));
+  expectOneErrorLine(place.slamot("run dr.ini cut.rawlog -o out"), 3, "cut.rawlog");
+  EXPECT_FALSE(place.has("out"));
+  expectOneErrorLine(place.slamot("run dr.ini cut.rawlog -o out --salvage -q"), 3, "were used");
+  const auto summary = place.summary("out");
+  EXPECT_EQ(summary["complete"], false);
+  EXPECT_GT(summary["steps"].get<int>(), 100);
+  EXPECT_LT(summary["steps"].get<int>(), 2000);
 }
 
 TEST(SlamotEvaluate, GivesTheNumbersOfTheSummary)

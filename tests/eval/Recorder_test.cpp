@@ -102,6 +102,28 @@ TEST(Recorder, KeepsTheLastBeliefAboutAnInstant)
   EXPECT_TRUE(recorder.record().targets.empty());
 }
 
+TEST(Recorder, KeepsEveryOdometryStepOfALogWhoseClockStandsStill)
+{
+  FakeFilter filter;
+  Recorder recorder(filter);
+  for (int i = 0; i < 5; ++i)
+  {
+    core::Step step = stepAt(1e9, true);
+    if (i == 3) step.landmarks.emplace();
+    recorder.accept(step, beliefAt(1e9, i));
+  }
+  recorder.finish(true);
+  const Record& r = recorder.record();
+  ASSERT_EQ(r.rows.size(), 5u);
+  for (int i = 1; i < 5; ++i)
+  {
+    EXPECT_GT(r.rows[i].time, r.rows[i - 1].time);
+    EXPECT_NEAR(r.rows[i].time, 1e9, 1e-5);
+    EXPECT_EQ(r.rows[i].time, r.steps[i].time);
+    EXPECT_EQ(r.rows[i].scan, i == 3);
+  }
+}
+
 TEST(Recorder, FollowsTargetsThroughLossAndReturn)
 {
   FakeFilter filter;

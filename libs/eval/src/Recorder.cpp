@@ -9,6 +9,7 @@ namespace slamot::eval
 namespace
 {
 constexpr double kSameInstant = 2e-9;               // [s]: result files print nanoseconds
+constexpr double kApart = 1e-6;                     // [s], between steps that a log gives one time
 constexpr double kLaserDistance = 0.1;              // [m]
 constexpr double kLaserTurn = math::degToRad(5.0);  // [rad]
 
@@ -70,7 +71,7 @@ void Recorder::begin(const core::Estimate& start)
 {
   odometry_ = start.robot.mean;
   // A start whose time nobody knows is no instant of the log.
-  if (std::isfinite(start.time)) addRow(start);
+  if (std::isfinite(start.time)) addRow(start.time, start);
 }
 
 void Recorder::accept(const core::Step& step, const core::Update& update)
@@ -79,27 +80,39 @@ void Recorder::accept(const core::Step& step, const core::Update& update)
   scanPending_ = scanPending_ || step.landmarks || step.blobs;
   record_.observations += observationsOf(step);
   record_.particles = std::max(record_.particles, update.diagnostics.particles);
-  record_.steps.push_back(diagnosticsOf(step, update));
   addPairings(step, update);
   const bool sameInstant =
       !record_.rows.empty() && record_.rows.back().time >= step.time - kSameInstant;
-  if (step.odometry || sameInstant) addRow(update.estimate);
+  record_.steps.push_back(diagnosticsOf(step, update));
+  if (step.odometry)
+  {
+    addRow(step.time, update.estimate);
+    record_.steps.back().time = record_.rows.back().time;
+  }
+  else if (sameInstant)
+    replaceRow(update.estimate);
   addLasers(step);
 }
 
-void Recorder::addRow(const core::Estimate& estimate)
+void Recorder::addRow(double time, const core::Estimate& estimate)
 {
-  if (!record_.rows.empty() && record_.rows.back().time >= estimate.time - kSameInstant)
-  {
-    // The later belief about one instant replaces the earlier.
-    scanPending_ = scanPending_ || record_.rows.back().scan;
-    record_.rows.pop_back();
-    for (auto& [_, track] : tracks_)
-      if (!track.rows.empty() && track.rows.back().row == record_.rows.size())
-        track.rows.pop_back();
-  }
-  record_.rows.push_back({estimate.time, estimate.robot, odometry_, scanPending_});
+  // Each odometry step has its row, even where a log's clock stands still.
+  if (!record_.rows.empty() && time <= record_.rows.back().time + kSameInstant)
+    time = record_.rows.back().time + kApart;
+  record_.rows.push_back({time, estimate.robot, odometry_, scanPending_});
   scanPending_ = false;
+  addTargets(estimate);
+}
+
+void Recorder::replaceRow(const core::Estimate& estimate)
+{
+  RobotRow& row = record_.rows.back();
+  row.robot = estimate.robot;
+  row.scan = row.scan || scanPending_;
+  scanPending_ = false;
+  for (auto& [_, track] : tracks_)
+    if (!track.rows.empty() && track.rows.back().row + 1 == record_.rows.size())
+      track.rows.pop_back();
   addTargets(estimate);
 }
 

@@ -25,6 +25,8 @@ class EntryReader
   std::optional<Entry> next();
   /// Share of the file read, 0 to 1.
   [[nodiscard]] double progress() const { return input_.progress(); }
+  /// Whether the file is gz; known after the first next().
+  [[nodiscard]] bool packed() const { return input_.packed(); }
 
  private:
   /// The bytes of a part, its header included.

@@ -80,6 +80,7 @@ std::optional<core::Step> StepAssembler::next()
     {
       check(*step);
       ++facts_.steps;
+      facts_.dropped += static_cast<std::size_t>(step->dropped);
       return step;
     }
   return std::nullopt;

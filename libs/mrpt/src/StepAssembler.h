@@ -20,6 +20,7 @@ struct LogFacts
 {
   std::string comment;                 ///< its comment text
   std::size_t entries = 0, steps = 0;  ///< entries without comments
+  std::size_t dropped = 0;             ///< sightings and blobs
   bool hasFrames = false;              ///< of actions and frames; else observations only
   bool beginsWithFrame = false;
   std::optional<double> firstTime, lastTime;  ///< the first and last that are valid [s]

@@ -162,7 +162,7 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
 {
   for (std::size_t i = 0; i < particles_.size(); ++i)
     priors_[i] = settings_.informed ? math::compose(particles_[i].pose, pending_.mean) : particles_[i].pose;
-  scan_.begin(step.landmarks ? &*step.landmarks : nullptr, priors_, pending_);
+  scan_.begin(step.landmarks ? &*step.landmarks : nullptr, step.time, priors_, pending_);
   blobRays_.rays.clear();
   blobRays_.blobs = step.blobs ? &step.blobs->blobs : nullptr;
   if (step.blobs)

@@ -34,7 +34,7 @@ LandmarkScan::LandmarkScan(const Settings& settings, maps::LandmarkPool& pool, i
   missLogOdds_ = std::log((1 - settings.detection) / (1 - kFalseAlarm));
 }
 
-void LandmarkScan::begin(const core::LandmarkScan* scan, const std::vector<Pose2D>& priors,
+void LandmarkScan::begin(const core::LandmarkScan* scan, double time, const std::vector<Pose2D>& priors,
                          const Gaussian<Pose2D>& pending)
 {
   rays_.clear();
@@ -43,6 +43,7 @@ void LandmarkScan::begin(const core::LandmarkScan* scan, const std::vector<Pose2
   touched_.clear();
   newSlots_.clear();
   if (!scan) return;
+  time_ = time;
   fov_ = scan->fov;
   for (const core::Sighting& s : scan->sightings)
   {
@@ -67,6 +68,7 @@ void LandmarkScan::begin(const core::LandmarkScan* scan, const std::vector<Pose2
     newSlots_.push_back(settings_.knownIds && knownSlots_[j] >= 0
                             ? static_cast<std::uint32_t>(knownSlots_[j])
                             : index_.reserve());
+  setNoise();
   for (auto& lane : extents_)
     if (lane.size() < index_.capacity()) lane.resize(index_.capacity());
   for (auto& lane : extents_)
@@ -74,6 +76,23 @@ void LandmarkScan::begin(const core::LandmarkScan* scan, const std::vector<Pose2
     for (const std::uint32_t slot : touched_) lane[slot] = {};
     for (const std::uint32_t slot : newSlots_) lane[slot] = {};
   }
+}
+
+void LandmarkScan::setNoise()
+{
+  if (settings_.correlationTime <= 0) return;
+  // Sightings that share their error within a time tell no more than one would: each is given the
+  // noise that makes the information of that time's sightings that of one.
+  constexpr double kMostNoise = 1000;
+  lastSeen_.resize(index_.capacity(), -1e300);
+  noise_.resize(index_.capacity());
+  for (std::size_t slot = 0; slot < noise_.size(); ++slot)
+  {
+    const double pause = time_ - lastSeen_[slot];
+    noise_[slot] = std::clamp(settings_.correlationTime / std::max(pause, 1e-9), 1.0, kMostNoise);
+  }
+  for (const std::uint32_t slot : newSlots_)
+    if (!settings_.knownIds) lastSeen_[slot] = -1e300;  // the slot's last landmark is another's
 }
 
 void LandmarkScan::findKnown(const core::LandmarkScan& scan)
@@ -150,7 +169,7 @@ void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Mat
     {
       const maps::Landmark* m = map.find(slot);
       Innovation o;
-      if (!m || !innovate(eye, rays_[j], m->x, m->y, m->cxx, m->cxy, m->cyy, o)) continue;
+      if (!m || !innovateLandmark(eye, j, slot, *m, o)) continue;
       if (spread) o = withPose(o, poseCov);
       if (o.d2 <= settings_.gates.outer)
         candidates.push_back({o.d2 + std::log(o.det), static_cast<std::int32_t>(j),
@@ -173,7 +192,7 @@ double LandmarkScan::weigh(const maps::LandmarkMap& map, const Eye& eye, const M
     Innovation& o = innovations[j];
     const maps::Landmark* m =
         matches[j] < 0 ? nullptr : map.find(static_cast<std::uint32_t>(matches[j]));
-    bool paired = m && innovate(eye, rays_[j], m->x, m->y, m->cxx, m->cxy, m->cyy, o);
+    bool paired = m && innovateLandmark(eye, j, static_cast<std::uint32_t>(matches[j]), *m, o);
     if (paired && settings_.knownIds)
       paired = (update ? withPose(o, poseCov).d2 : o.d2) <= settings_.gates.outer;
     if (!paired)
@@ -206,7 +225,7 @@ void LandmarkScan::apply(maps::LandmarkMap& map, const Eye& eye, const std::vect
     }
     else if (innovations)
       correct(m, (*innovations)[j]);
-    else if (Innovation o; innovate(eye, rays_[j], m.x, m.y, m.cxx, m.cxy, m.cyy, o))
+    else if (Innovation o; innovateLandmark(eye, j, slot, m, o))
       correct(m, o);
     m.existence = std::min(kMostExistence, m.existence + static_cast<float>(hitLogOdds_));
     if (!settings_.knownIds) noteExtent(lane, slot, m);
@@ -240,6 +259,11 @@ void LandmarkScan::applyMisses(maps::LandmarkMap& map, const Eye& eye,
 
 void LandmarkScan::finish(const std::vector<const std::vector<std::int32_t>*>& matches)
 {
+  if (settings_.correlationTime > 0)
+    for (const auto* m : matches)
+      for (std::size_t j = 0; j < rays_.size(); ++j)
+        if ((*m)[j] != kRejected)
+          lastSeen_[(*m)[j] == kNew ? newSlots_[j] : static_cast<std::size_t>((*m)[j])] = time_;
   for (std::size_t j = rays_.size(); j-- > 0;)  // backwards, so that unused numbers are given back
   {
     if (settings_.knownIds && knownSlots_[j] >= 0) continue;

@@ -18,7 +18,7 @@ class LandmarkScan
 
   /// Readies a scan: rays, slots by identity or candidates from the index, a slot for each sighting
   /// that may be new.  `priors` are all particles' poses, `priorCov` their common uncertainty.
-  void begin(const core::LandmarkScan* scan, const std::vector<Pose2D>& priors,
+  void begin(const core::LandmarkScan* scan, double time, const std::vector<Pose2D>& priors,
              const Gaussian<Pose2D>& pending);
 
   /// Gives each sighting a slot, kNew or kRejected, for one particle.
@@ -53,6 +53,14 @@ class LandmarkScan
   void findCandidates(const std::vector<Pose2D>& priors, const Gaussian<Pose2D>& pending);
   void findInView(const core::LandmarkScan& scan, const std::vector<Pose2D>& priors);
   void noteExtent(int lane, std::uint32_t slot, const maps::Landmark& m);
+  /// Innovation of sighting j of a landmark, whose slot tells how much of its noise is new.
+  bool innovateLandmark(const Eye& eye, std::size_t j, std::uint32_t slot, const maps::Landmark& m,
+                        Innovation& o) const
+  {
+    return innovate(eye, rays_[j], m.x, m.y, m.cxx, m.cxy, m.cyy, o,
+                    slot < noise_.size() ? noise_[slot] : 1.0);
+  }
+  void setNoise();
   void applyMisses(maps::LandmarkMap& map, const Eye& eye, const std::vector<std::int32_t>& matches, int lane);
 
   const Settings& settings_;
@@ -70,6 +78,8 @@ class LandmarkScan
   std::vector<std::uint32_t> touched_;                // slots whose extent this scan sets anew
   std::vector<std::uint32_t> inView_;                 // slots that might be missed
   std::vector<std::vector<maps::SlotExtent>> extents_;  // by lane, by slot
+  double time_ = 0;
+  std::vector<double> lastSeen_, noise_;  // by slot; empty if sightings are independent
   double missLogOdds_ = 0, hitLogOdds_ = 0;
 };
 }  // namespace slamot::filters::rbpf

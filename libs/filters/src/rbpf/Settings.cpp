@@ -30,6 +30,7 @@ Settings Settings::from(core::Params& p)
   s.newDensity = p.nonNegative("new_density_per_m_rad", 0.0);
   s.rangeStd = p.nonNegative("range_std_m", 0.0);
   s.bearingStd = p.nonNegative("bearing_std_deg", 0.0);
+  s.correlationTime = p.nonNegative("sighting_correlation_s", 0.0);
   s.confirmSightings = p.integer("confirm_sightings", 1, 1000000, s.knownIds ? 1 : 3);
   s.detection = p.inRange("detection_probability", 0, 0.999, 0.0);
   s.resampling.BETA = p.inRange("resample_below_ess", 0, 1, 0.5);

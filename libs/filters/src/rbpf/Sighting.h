@@ -56,9 +56,9 @@ inline double smallAngle(double y, double x)
   return std::atan2(y, x);
 }
 
-/// False where the model is singular (range below 1 cm).
+/// False where the model is singular (range below 1 cm).  `noise` multiplies the sighting's variances.
 inline bool innovate(const Eye& eye, const Ray& z, double mx, double my, double pxx, double pxy,
-                     double pyy, Innovation& o)
+                     double pyy, Innovation& o, double noise = 1)
 {
   const double dx = mx - eye.x, dy = my - eye.y, q = dx * dx + dy * dy;
   constexpr double kMin = models::RangeBearing::kSmallestRange;
@@ -80,9 +80,9 @@ inline bool innovate(const Eye& eye, const Ray& z, double mx, double my, double 
     o.nuR = o.h11 = o.h12 = 0;  // varRange = 1 then makes the first row inert
   const double a1 = pxx * o.h11 + pxy * o.h12, a2 = pxy * o.h11 + pyy * o.h12;
   const double b1 = pxx * o.h21 + pxy * o.h22, b2 = pxy * o.h21 + pyy * o.h22;
-  o.s11 = o.h11 * a1 + o.h12 * a2 + z.varRange;
+  o.s11 = o.h11 * a1 + o.h12 * a2 + noise * z.varRange;
   o.s12 = o.h21 * a1 + o.h22 * a2;
-  o.s22 = o.h21 * b1 + o.h22 * b2 + z.varBearing;
+  o.s22 = o.h21 * b1 + o.h22 * b2 + noise * z.varBearing;
   o.det = o.s11 * o.s22 - o.s12 * o.s12;
   o.d2 = (o.s22 * o.nuR * o.nuR - 2 * o.s12 * o.nuR * o.nuB + o.s11 * o.nuB * o.nuB) / o.det;
   return true;

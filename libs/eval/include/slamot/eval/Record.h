@@ -9,8 +9,9 @@
 
 namespace slamot::eval
 {
-/// The robot at one instant: the start, or an odometry step after its update.  Times rise strictly;
-/// of several beliefs about one instant the last counts.
+/// The robot at the start, or at an odometry step after its update and after those of steps without
+/// odometry at the same instant.  Times rise strictly: where a log's do not, each row is 1 us after
+/// the one before.
 struct RobotRow
 {
   double time = 0;         ///< [s], the log's own clock

@@ -29,7 +29,8 @@ class Recorder : public core::Sink
   [[nodiscard]] Record takeRecord() { return std::move(record_); }
 
  private:
-  void addRow(const core::Estimate& estimate);
+  void addRow(double time, const core::Estimate& estimate);
+  void replaceRow(const core::Estimate& estimate);
   void addTargets(const core::Estimate& estimate);
   void addPairings(const core::Step& step, const core::Update& update);
   void addLasers(const core::Step& step);

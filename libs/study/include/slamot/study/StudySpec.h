@@ -1,0 +1,87 @@
+#pragma once
+
+#include <slamot/core/Config.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slamot::study
+{
+/// An ini file that a study refers to, as it was read, and what the study changes in it.
+struct ConfigFile
+{
+  std::string name;                                         ///< for messages
+  std::string text;                                         ///< as read
+  std::vector<std::pair<std::string, std::string>> values;  ///< Section.key and what it is set to
+
+  /// The file with the study's values.  \throws core::Error (kConfig) on a malformed file.
+  [[nodiscard]] core::Config config() const;
+};
+
+/// A filter with its configuration; section [method.<name>].
+struct Method
+{
+  std::string name, label;
+  ConfigFile file;
+};
+
+/// What is varied; section [vary.<name>].
+struct Axis
+{
+  std::string name, label;
+  /// Section.key, each of the scenario or of methods: all are set to the same value.
+  std::vector<std::string> keys;
+  std::vector<std::string> values;
+};
+
+/// Metrics side by side; section [table.<name>].
+struct TableSpec
+{
+  std::string name, title;
+  std::vector<std::string> metrics;
+  bool ratios = false;  ///< to the reference, instead of means
+};
+
+/// A figure of metrics over an axis, one panel for each metric; section [plot.<name>].
+struct PlotSpec
+{
+  std::string name, title;
+  std::size_t axis = 0;  ///< place in StudySpec::axes
+  std::vector<std::string> metrics;
+  bool logX = false;
+};
+
+/// Figures that others published, printed beside: section [published.<name>].
+struct Published
+{
+  std::string label;
+  std::map<std::string, std::string> byMetric;  ///< as printed there
+};
+
+/// A Monte-Carlo study: methods, data, what is varied, seeds, and what is to be shown.
+struct StudySpec
+{
+  std::string name;                  ///< the file's name
+  std::string title, note;           ///< of the page of tables
+  bool simulated = true;             ///< else rawlogs
+  ConfigFile scenario;               ///< if simulated
+  std::vector<std::string> rawlogs;  ///< else: paths
+  std::vector<Method> methods;
+  std::string reference;   ///< the method to which others are compared; empty: none
+  std::vector<Axis> axes;  ///< in the order of [study] vary
+  int seeds = 1;
+  std::uint64_t firstSeed = 1;
+  std::string align;              ///< auto | none | first-pose | rigid
+  std::vector<TableSpec> tables;  ///< of the page, in the order of [study] tables
+  std::vector<PlotSpec> plots;
+  std::vector<Published> published;
+  std::string effective;  ///< the study itself as an ini text, see repeatable()
+
+  /// Reads a study; files that it names are relative to its own.  `set` are overrides, as of --set.
+  /// \throws core::Error (kConfig) naming file, section and key; kUnreadable for a missing rawlog.
+  static StudySpec load(const std::string& path, const std::vector<std::string>& set = {});
+};
+}  // namespace slamot::study

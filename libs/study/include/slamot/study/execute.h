@@ -1,0 +1,37 @@
+#pragma once
+
+#include <slamot/study/RunRecord.h>
+
+#include <atomic>
+#include <functional>
+
+namespace slamot::study
+{
+struct ExecuteOptions
+{
+  int threads = 1;
+  int shard = 0, shards = 1;  ///< takes the runs whose number has the remainder shard % shards
+  const std::atomic<bool>* stop = nullptr;  ///< when it turns true, runs under way are the last
+  /// After every run, one call at a time: runs done and to be done, failed ones so far.
+  std::function<void(std::size_t done, std::size_t of, std::size_t failed)> onProgress;
+};
+
+struct ExecuteResult
+{
+  std::size_t runs = 0;   ///< of this shard
+  std::size_t found = 0;  ///< already there
+  std::size_t stale = 0;  ///< there, but of another spec or damaged: made anew
+  std::size_t made = 0;
+  std::size_t failed = 0;  ///< of those made
+  std::optional<RunRecord> firstFailed;
+  bool interrupted = false;
+};
+
+/// Does those runs of a study that have no good record in its folder, or failed, each in one
+/// thread.  A run that throws is recorded as failed, and the others go on.
+/// \throws core::Error (kUnreadable) if a record can't be written.
+ExecuteResult execute(const Plan& plan, const std::string& folder, const ExecuteOptions& options);
+
+/// One run.
+[[nodiscard]] RunRecord executeRun(const Plan& plan, const Run& run);
+}  // namespace slamot::study

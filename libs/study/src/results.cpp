@@ -1,0 +1,111 @@
+#include <slamot/study/results.h>
+
+#include <slamot/core/Error.h>
+#include <slamot/results/Gnuplot.h>
+#include <slamot/results/TextFile.h>
+#include <slamot/study/Metrics.h>
+#include <slamot/study/tables.h>
+
+#include <charconv>
+#include <filesystem>
+#include <map>
+
+namespace slamot::study
+{
+namespace
+{
+double numberOf(const std::string& text)
+{
+  double v = 0;
+  std::from_chars(text.data(), text.data() + text.size(), v);  // a number, as the spec has checked
+  return v;
+}
+
+/// What a curve is of: its method, and what else is varied.
+std::string curveTitle(const Plan& plan, const PlotSpec& plot, std::size_t cell, std::size_t method)
+{
+  std::string out = plan.spec.methods[method].label;
+  const auto labels = plan.cellLabels(), values = plan.cellValues(plan.cells[cell]);
+  const std::size_t x = labels.size() - plan.spec.axes.size() + plot.axis;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (i != x) out += ", " + labels[i] + " " + values[i];
+  return out;
+}
+
+void addCurves(const Plan& plan, const Outcome& outcome, const PlotSpec& plot, std::size_t metric,
+               results::Plot& panel)
+{
+  std::map<std::string, std::size_t> places;
+  for (std::size_t m = 0; m < plan.spec.methods.size(); ++m)
+    for (std::size_t c = 0; c < plan.cells.size(); ++c)
+    {
+      const auto s = statistics(outcome.values(plan, plan.groupOf[c][m], metric));
+      if (s.count == 0) continue;
+      const auto [it, isNew] = places.emplace(curveTitle(plan, plot, c, m), panel.series.size());
+      if (isNew)
+      {
+        results::Series series;
+        series.kind = results::Series::Kind::kErrorBars;
+        series.title = it->first;
+        series.ink = results::inkOf(places.size() - 1);
+        panel.series.push_back(series);
+      }
+      results::Series& series = panel.series[it->second];
+      series.x.push_back(
+          numberOf(plan.spec.axes[plot.axis].values[plan.cells[c].values[plot.axis]]));
+      series.y.push_back(s.mean);
+      series.low.push_back(s.mean - s.halfWidth95);
+      series.high.push_back(s.mean + s.halfWidth95);
+    }
+}
+
+void makeFolder(const std::string& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw core::Error(core::ExitStatus::kUnreadable, folder, "can't be made: " + error.message(),
+                      "write elsewhere");
+}
+}  // namespace
+
+results::Figure figureOf(const Plan& plan, const Outcome& outcome, const PlotSpec& plot)
+{
+  results::Figure figure;
+  for (const std::string& name : plot.metrics)
+  {
+    results::Plot panel;
+    if (figure.panels.empty()) panel.title = plot.title;
+    panel.xLabel = plan.spec.axes[plot.axis].label;
+    panel.yLabel = metrics()[*metricByName(name)].label;
+    panel.logX = plot.logX;
+    addCurves(plan, outcome, plot, *metricByName(name), panel);
+    figure.panels.push_back(panel);
+  }
+  return figure;
+}
+
+void saveResults(const std::string& folder, const Plan& plan, const Outcome& outcome)
+{
+  makeFolder(folder);
+  results::writeWhole(folder + "/table.md", tableMarkdown(plan, outcome));
+  results::writeWhole(folder + "/table.csv", tableCsv(plan, outcome));
+  results::writeWhole(folder + "/runs.csv", runsCsv(plan, outcome));
+  results::writeWhole(folder + "/timing.csv", timingCsv(plan, outcome));
+  for (const PlotSpec& plot : plan.spec.plots)
+  {
+    const results::Figure figure = figureOf(plan, outcome, plot);
+    results::saveFigure(folder + "/" + plot.name + ".svg", figure);
+    results::saveFigure(folder + "/" + plot.name + ".png", figure);
+  }
+}
+
+void saveSpec(const std::string& folder, const StudySpec& spec)
+{
+  makeFolder(folder + "/config");
+  if (spec.simulated) results::writeWhole(folder + "/config/scenario.ini", spec.scenario.text);
+  for (const Method& m : spec.methods)
+    results::writeWhole(folder + "/config/" + m.name + ".ini", m.file.text);
+  results::writeWhole(folder + "/study.ini", spec.effective);
+}
+}  // namespace slamot::study

@@ -1,0 +1,168 @@
+#include "specReading.h"
+
+#include <slamot/core/Error.h>
+#include <slamot/study/Metrics.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+
+namespace slamot::study
+{
+namespace
+{
+constexpr std::streamoff kLargestFile = 4 << 20;  // as core::Config
+
+// A name becomes part of file names.
+void checkName(core::Params& p, const std::string& key, const std::string& name)
+{
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+  if (!std::all_of(name.begin(), name.end(), plain))
+    p.fail(key, "'" + name + "' can't be a name", "use letters, digits, - and _");
+}
+
+bool hasSection(const ConfigFile& file, const std::string& section)
+{
+  return file.config().has(section);
+}
+
+bool isNumber(const std::string& text)
+{
+  double v = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+}  // namespace
+
+std::pair<std::string, std::string> splitKey(core::Params& p, const std::string& key,
+                                             const std::string& text)
+{
+  const auto dot = text.find_last_of('.');
+  if (dot == std::string::npos || dot == 0 || dot + 1 == text.size())
+    p.fail(key, "'" + text + "' is no Section.key", "write one, as world.landmarks");
+  return {text.substr(0, dot), text.substr(dot + 1)};
+}
+
+ConfigFile readFile(core::Params& p, const std::string& key, const std::filesystem::path& folder)
+{
+  const std::filesystem::path path = folder / p.text(key);
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file || std::filesystem::is_directory(path))
+    p.fail(key, path.string() + " can't be read", "paths are relative to the study's file");
+  if (file.tellg() > kLargestFile) p.fail(key, path.string() + " is over 4 MB", "give an ini file");
+  std::ostringstream text;
+  file.seekg(0);
+  text << file.rdbuf();
+  return {path.filename().string(), text.str(), {}};
+}
+
+std::vector<std::string> readMetrics(core::Params& p, const std::string& key,
+                                     const std::optional<std::string>& otherwise)
+{
+  const auto names = p.list(key, otherwise);
+  for (const std::string& name : names)
+  {
+    if (metricByName(name)) continue;
+    std::string known;
+    for (const Metric& m : metrics()) known += (known.empty() ? "" : ", ") + std::string(m.name);
+    p.fail(key, "'" + name + "' is no metric", "known: " + known);
+  }
+  return names;
+}
+
+Method readMethod(core::Config& study, const std::string& name, const std::filesystem::path& folder)
+{
+  const std::string section = "method." + name;
+  if (!study.has(section))
+    core::Params(study, "study").fail("methods", "there is no [" + section + "]", "add it");
+  core::Params p(study, section);
+  checkName(p, "", name);
+  Method out{name, p.text("label", name), readFile(p, "config", folder)};
+  for (const std::string& key : p.keys())
+  {
+    if (key.find('.') == std::string::npos) continue;
+    splitKey(p, key, key);
+    out.file.values.emplace_back(key, p.text(key));
+  }
+  return out;
+}
+
+Axis readAxis(core::Config& study, const std::string& name, const StudySpec& spec)
+{
+  const std::string section = "vary." + name;
+  if (!study.has(section))
+    core::Params(study, "study").fail("vary", "there is no [" + section + "]", "add it");
+  core::Params p(study, section);
+  checkName(p, "", name);
+  Axis out{name, p.text("label", name), p.list("keys"), p.list("values")};
+  for (const std::string& key : out.keys)
+  {
+    const std::string varied = splitKey(p, "keys", key).first;
+    const bool known = (spec.simulated && hasSection(spec.scenario, varied)) ||
+                       std::any_of(spec.methods.begin(), spec.methods.end(),
+                                   [&](const Method& m) { return hasSection(m.file, varied); });
+    if (!known)
+      p.fail("keys", "neither the scenario nor a method has a section [" + varied + "]",
+             "name a section that one has");
+  }
+  return out;
+}
+
+std::vector<TableSpec> readTables(core::Config& study, core::Params& p, bool hasReference)
+{
+  if (!p.has("tables")) return {{"errors", "", {"robot_mean_m", "target_mean_m"}, false}};
+  std::vector<TableSpec> out;
+  for (const std::string& name : p.list("tables"))
+  {
+    if (!study.has("table." + name)) p.fail("tables", "there is no [table." + name + "]", "add it");
+    core::Params t(study, "table." + name);
+    TableSpec table{name, t.text("title", ""), readMetrics(t, "columns"), t.flag("ratios", false)};
+    if (table.ratios && !hasReference)
+      t.fail("ratios", "there is no method to compare with", "set [study] reference");
+    out.push_back(table);
+  }
+  return out;
+}
+
+std::vector<PlotSpec> readPlots(core::Config& study, const std::vector<Axis>& axes)
+{
+  std::vector<PlotSpec> out;
+  for (const std::string& section : study.sections())
+  {
+    if (section.rfind("plot.", 0) != 0) continue;
+    core::Params p(study, section);
+    PlotSpec plot;
+    plot.name = section.substr(5);
+    checkName(p, "", plot.name);
+    plot.title = p.text("title", "");
+    if (axes.empty()) p.fail("x", "nothing is varied", "remove the plot, or set [study] vary");
+    const std::string x = p.text("x", axes.front().name);
+    const auto axis = placeOf(axes, x);
+    if (!axis) p.fail("x", "'" + x + "' is not varied", "name one of [study] vary");
+    plot.axis = *axis;
+    const auto& values = axes[*axis].values;
+    if (!std::all_of(values.begin(), values.end(), isNumber))
+      p.fail("x", "the values of " + x + " are no numbers", "plot over another");
+    plot.metrics = readMetrics(p, "y", "robot_mean_m, target_mean_m");
+    plot.logX = p.flag("log_x", false);
+    out.push_back(plot);
+  }
+  return out;
+}
+
+std::vector<Published> readPublished(core::Config& study)
+{
+  std::vector<Published> out;
+  for (const std::string& section : study.sections())
+  {
+    if (section.rfind("published.", 0) != 0) continue;
+    core::Params p(study, section);
+    Published row{p.text("label", section.substr(10)), {}};
+    for (const Metric& m : metrics())
+      if (p.has(m.name)) row.byMetric[m.name] = p.text(m.name);
+    out.push_back(row);
+  }
+  return out;
+}
+}  // namespace slamot::study
