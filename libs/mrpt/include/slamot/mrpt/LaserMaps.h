@@ -1,0 +1,28 @@
+#pragma once
+
+#include <slamot/core/Step.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace slamot::mrpt
+{
+/// Laser scans of one instant and the robot's pose then.
+struct PosedScans
+{
+  double time = 0;         ///< [s]
+  Gaussian<Pose2D> robot;  ///< in map axes
+  std::vector<std::shared_ptr<const core::LaserScan>> scans;
+};
+
+/// Writes the scans and their poses as MRPT's simple map, from which its tools make maps of any
+/// kind (observations2map, pf-localization).  The same data gives the same bytes.
+/// \throws core::Error (kUnreadable) if the file can't be written.
+void saveSimpleMap(const std::string& path, const std::vector<PosedScans>& scans);
+
+/// Draws them as an occupancy grid, dark where something stands: 0.05 m a pixel, coarser where that
+/// would make more than four million.  \throws core::Error (kUnreadable) if the file can't be
+/// written.
+void saveGridPicture(const std::string& path, const std::vector<PosedScans>& scans);
+}  // namespace slamot::mrpt

@@ -1,0 +1,91 @@
+#include "temporary.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <slamot/core/Error.h>
+#include <slamot/mrpt/LaserMaps.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace slamot::mrpt
+{
+namespace
+{
+// All round, at the middle of a square room of 4 m: the walls are 2 m off.
+std::shared_ptr<const core::LaserScan> room()
+{
+  auto scan = std::make_shared<core::LaserScan>();
+  scan->angleMin = -math::kPi;
+  scan->angleStep = math::degToRad(0.5);
+  scan->rangeMax = 30;
+  for (int i = 0; i <= 720; ++i)
+  {
+    const double a = scan->angleMin + i * scan->angleStep;
+    scan->ranges.push_back(
+        static_cast<float>(2 / std::max(std::abs(std::cos(a)), std::abs(std::sin(a)))));
+  }
+  return scan;
+}
+
+std::vector<PosedScans> twoScans()
+{
+  PosedScans a, b;
+  a.time = 10, b.time = 11;
+  a.robot.mean = {5, 3, 0};
+  b.robot.mean = {5, 3, math::kPi / 2};
+  b.robot.cov = 0.01 * Matrix3::Identity();
+  a.scans = b.scans = {room()};
+  return {a, b};
+}
+
+std::string read(const std::string& path)
+{
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+}  // namespace
+
+TEST(SimpleMap, HoldsScansAndPoses)
+{
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("map.simplemap");
+  saveSimpleMap(path, twoScans());
+  ::mrpt::maps::CSimpleMap map;
+  ASSERT_TRUE(map.loadFromFile(path));
+  ASSERT_EQ(map.size(), 2u);
+}
+
+TEST(SimpleMap, GivesTheSameBytesTwice)
+{
+  const tests::TemporaryFolder folder;
+  saveSimpleMap(folder.file("a.simplemap"), twoScans());
+  saveSimpleMap(folder.file("b.simplemap"), twoScans());
+  EXPECT_EQ(read(folder.file("a.simplemap")), read(folder.file("b.simplemap")));
+}
+
+TEST(GridPicture, IsDarkAtTheWallsAndBrightBetween)
+{
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("grid.png");
+  saveGridPicture(path, twoScans());
+  ::mrpt::img::CImage image;
+  ASSERT_TRUE(image.loadFromFile(path));
+  // The room and a margin of 1 m: 6 m of 0.05 m.
+  EXPECT_NEAR(static_cast<double>(image.getWidth()), 120, 3);
+  EXPECT_NEAR(static_cast<double>(image.getHeight()), 120, 3);
+  const auto at = [&](int x, int y) { return image.getAsFloat(x, y); };
+  EXPECT_GT(at(60, 60), 0.6F);
+  EXPECT_LT(std::min({at(19, 60), at(20, 60), at(21, 60)}), 0.4F);
+  EXPECT_NEAR(at(3, 3), 0.5, 0.05);
+}
+
+TEST(LaserMaps, SayWhereTheyCantBeWritten)
+{
+  EXPECT_THROW(saveGridPicture("/no/such/folder/grid.png", twoScans()), core::Error);
+  EXPECT_THROW(saveSimpleMap("/no/such/folder/map.simplemap", twoScans()), core::Error);
+}
+}  // namespace slamot::mrpt
