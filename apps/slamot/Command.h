@@ -34,5 +34,6 @@ void addSimulate(CLI::App& app, int& status);
 void addImport(CLI::App& app, int& status);
 void addRun(CLI::App& app, int& status);
 void addEvaluate(CLI::App& app, int& status);
+void addRender(CLI::App& app, int& status);
 void addStudy(CLI::App& app, int& status);
 }  // namespace slamot::apps

@@ -60,6 +60,7 @@ int runCommand(int argc, char** argv)
   slamot::apps::addRun(app, status);
   slamot::apps::addEvaluate(app, status);
   slamot::apps::addInfo(app, status);
+  slamot::apps::addRender(app, status);
   slamot::apps::addSimulate(app, status);
   slamot::apps::addStudy(app, status);
   try

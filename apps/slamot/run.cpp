@@ -15,6 +15,7 @@
 
 #include "Command.h"
 #include "Progress.h"
+#include "sceneOf.h"
 
 namespace slamot::apps
 {
@@ -134,14 +135,16 @@ class Run
     options.align = plan_.align;
     const eval::Evaluation evaluation = eval::evaluate(record, truth_, options);
     const results::RunInfo info{plan_.method, o_.dataset, plan_.seed, configText(o_, config_)};
+    const results::RunView view{record, truth_, evaluation};
     std::string warning;
-    results::writeResult(folder_, info, record, evaluation, timing,
-                         [&](const std::string& folder)
-                         {
-                           warning = results::writeReport(
-                               (std::filesystem::path(folder) / kReport).string(), info,
-                               {record, truth_, evaluation});
-                         });
+    const auto addPictures = [&](const std::string& folder)
+    {
+      const std::filesystem::path place(folder);
+      mrpt::saveScene((place / "scene.3Dscene").string(),
+                      sceneOf(results::titleOf(info), view, filter_->particles()));
+      warning = results::writeReport((place / kReport).string(), info, view);
+    };
+    results::writeResult(folder_, info, record, evaluation, timing, addPictures);
     if (o_.common.quiet) return;
     if (!warning.empty()) std::fprintf(stderr, "slamot: warning: %s\n", warning.c_str());
     std::printf("%s on %s: %zu steps, %zu observations, %.2f s%s\n%s", plan_.method.c_str(),

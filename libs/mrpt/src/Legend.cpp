@@ -17,7 +17,7 @@ constexpr double kRow = 0.042;  // a line's height, as a part of the window's
 
 slamot_viz::CText3D::Ptr textAt(const std::string& text, double x, double y)
 {
-  auto object = slamot_viz::CText3D::Create(text, "sans", 0.55f);
+  auto object = slamot_viz::CText3D::Create(text, "sans", 0.5f);
   object->setTextKerning(0.02);
   object->setColor_u8(0x24, 0x29, 0x2f);
   object->setLocation(x, y - 0.2, 0);

@@ -3,6 +3,7 @@
 #include "Legend.h"
 #include "Mesh.h"
 #include "SceneFrame.h"
+#include "view.h"
 
 #include <array>
 #include <filesystem>
@@ -59,6 +60,7 @@ class SceneBuilder
     addParticles();
     scene_.getViewport()->setCustomBackgroundColor({1.0f, 1.0f, 1.0f});
     addLegend();
+    if (!shownByDefault()) addOverview();
     return scene_;
   }
 
@@ -76,6 +78,30 @@ class SceneBuilder
     if (!data_.particles.empty()) legend.dots("particles", kParticle);
     legend.thinLine("grid of " + frame_.gridText(), kFaint);
     legend.finish();
+  }
+
+  /// Whether SceneViewer3D's first view, of 20 m about the origin, has most of the ground in it.
+  [[nodiscard]] bool shownByDefault() const
+  {
+    return std::max({-frame_.xMin, frame_.xMax, -frame_.yMin, frame_.yMax}) < 10;
+  }
+
+  /// The whole map, small, in a corner: the user sees where to go.
+  void addOverview()
+  {
+    auto view = scene_.createViewport("overview");
+    view->setCloneView("main");
+    view->setViewportPosition(0.01, 0.01, 0.4, 0.4);
+    view->setBorderSize(1);
+    view->setCustomBackgroundColor({1.0f, 1.0f, 1.0f});
+    const double height = std::max(frame_.yMax - frame_.yMin, (frame_.xMax - frame_.xMin) / 1.3);
+    auto camera = slamot_viz::CCamera::Create();
+    camera->setPointingAt((frame_.xMin + frame_.xMax) / 2, (frame_.yMin + frame_.yMax) / 2, 0);
+    camera->setZoomDistance(static_cast<float>(kOrthogonalZoom * 1.05 * height));
+    camera->setAzimuthDegrees(-90);
+    camera->setElevationDegrees(90);
+    camera->setProjectiveModel(false);
+    view->insert(camera);
   }
 
   [[nodiscard]] double u() const { return frame_.unit; }
@@ -112,10 +138,10 @@ class SceneBuilder
     for (const auto& l : data_.landmarks)
     {
       ellipses.ellipse(l.position, 0.15 * u(), z(kEllipseLayer));
-      posts.post(l.position.mean, 0.35 * u(), 0, 4 * u());
+      posts.post(l.position.mean, 0.32 * u(), 0, 3.5 * u());
     }
     for (const Point2D& p : data_.trueLandmarks)
-      crosses.cross(p, 1.0 * u(), 0.22 * u(), z(kTruthLayer));
+      crosses.cross(p, 0.9 * u(), 0.16 * u(), z(kTruthLayer));
     if (!data_.landmarks.empty())
     {
       scene_.insert(ellipses.object("landmark ellipses"));

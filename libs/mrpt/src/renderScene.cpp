@@ -39,7 +39,7 @@ Box groundOf(MrptScene& scene)
 slamot_viz::CCamera cameraFor(const Box& ground, const RenderOptions& options)
 {
   CameraView view;
-  view.elevation = math::degToRad(options.fromAbove ? 90 : 50);
+  view.elevation = math::degToRad(options.fromAbove ? 90 : 60);
   view.opening = options.fromAbove ? 0 : math::degToRad(30);
   view = fitted(view, static_cast<double>(options.width) / options.height, ground);
   slamot_viz::CCamera camera;

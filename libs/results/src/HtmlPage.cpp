@@ -33,7 +33,7 @@ std::string element(const char* tag, const std::string& text)
 
 const char* const kStyle = R"(
 *{box-sizing:border-box}
-body{margin:0 auto;max-width:60rem;padding:1.5rem 1rem 3rem;background:var(--paper);color:var(--ink-text);
+body{margin:0 auto;max-width:62rem;padding:1.5rem 1rem 3rem;background:var(--paper);color:var(--ink-text);
 font:1rem/1.5 system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
 h1{font-size:1.6rem;line-height:1.25;margin:0 0 .2rem;overflow-wrap:anywhere}
 h2{font-size:1.15rem;margin:2.2rem 0 .6rem;padding-bottom:.25rem;border-bottom:1px solid var(--ink-grid)}
@@ -42,9 +42,9 @@ h2{font-size:1.15rem;margin:2.2rem 0 .6rem;padding-bottom:.25rem;border-bottom:1
 .banner{margin:1rem 0;padding:.7rem 1rem;border-radius:.4rem;background:#b42318;color:#fff;font-weight:600}
 .wide{overflow-x:auto}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.93rem}
-th,td{padding:.3rem .8rem;text-align:right;border-bottom:1px solid var(--ink-grid);white-space:nowrap}
+th,td{padding:.3rem .6rem;text-align:right;border-bottom:1px solid var(--ink-grid);white-space:nowrap}
 th{font-weight:600;vertical-align:bottom;white-space:normal}
-th:first-child,td:first-child{text-align:left;padding-left:0}
+th:first-child,td:first-child{text-align:left;padding-left:0;white-space:normal}
 figure{margin:1.2rem 0 1.8rem}
 figcaption{font-size:.93rem;margin-bottom:.4rem}
 svg{display:block;width:100%;height:auto}

@@ -75,11 +75,15 @@ void addPlots(HtmlPage& page, const RunView& run)
 }
 }  // namespace
 
+std::string titleOf(const RunInfo& info)
+{
+  return info.method + " on " + std::filesystem::path(info.dataset).filename().string();
+}
+
 std::string writeReport(const std::string& path, const RunInfo& info, const RunView& run)
 {
-  HtmlPage page(info.method + " on " + std::filesystem::path(info.dataset).filename().string(),
-                "seed " + std::to_string(info.seed) + ", " +
-                    std::to_string(run.record.steps.size()) + " steps");
+  HtmlPage page(titleOf(info), "seed " + std::to_string(info.seed) + ", " +
+                                   std::to_string(run.record.steps.size()) + " steps");
   if (!run.record.complete)
     page.banner(
         "INCOMPLETE: the run was interrupted, or its input ended too early. All below "

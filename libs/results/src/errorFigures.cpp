@@ -55,51 +55,70 @@ ErrorTrack errorTrack(const RunView& run, const std::vector<eval::StepError>& st
 }
 
 /// Shows all of the errors and most of the bounds: those of a target long unseen would dwarf all.
-Range errorRange(const std::vector<double>& error, const std::vector<double>& bound)
+Range errorRange(const std::vector<double>& error, const std::vector<double>& bound, double most)
 {
   double limit = 0;
   std::vector<double> finite;
-  for (std::size_t i = 0; i < error.size(); ++i)
-  {
-    if (std::isfinite(error[i])) limit = std::max(limit, std::abs(error[i]));
-    if (std::isfinite(bound[i])) finite.push_back(bound[i]);
-  }
+  for (const double e : error)
+    if (std::isfinite(e)) limit = std::max(limit, std::abs(e));
+  for (const double b : bound)
+    if (std::isfinite(b)) finite.push_back(b);
   if (!finite.empty()) limit = std::max(limit, math::quantile(finite, 0.98));
+  limit = std::min(limit, most);
   return limit > 0 ? Range{-1.1 * limit, 1.1 * limit} : Range{-1, 1};
 }
 
-Plot errorPlot(const ErrorTrack& track, int axis, Ink ink)
+/// The errors of one axis; a heading that goes over half a turn breaks the line.
+Series errorLine(const ErrorTrack& track, int axis, double unit)
+{
+  Series line{Kind::kLine, axis == 0 ? "error" : "", Ink::kBlue, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < track.time.size(); ++i)
+  {
+    const double e = unit * track.error[i][axis];
+    if (axis == 2 && i > 0 && std::abs(e - line.y.back()) > 180)
+      line.x.push_back(track.time[i]), line.y.push_back(kNaN);
+    line.x.push_back(track.time[i]);
+    line.y.push_back(e);
+  }
+  return line;
+}
+
+Plot errorPlot(const ErrorTrack& track, int axis, Ink ink, const Range& time)
 {
   constexpr const char* kLabels[] = {"error of x [m]", "error of y [m]", "error of heading [deg]"};
   const double unit = axis == 2 ? math::radToDeg(1) : 1;
-  Series band{
-      Kind::kBand, axis == 0 ? "bounds of three standard deviations" : "", Ink::kMuted, {}, {}, {},
-      {}};
-  Series line{Kind::kLine, axis == 0 ? "error" : "", ink, {}, {}, {}, {}};
-  for (std::size_t i = 0; i < track.time.size(); ++i)
-  {
-    line.y.push_back(unit * track.error[i][axis]);
-    band.high.push_back(3 * unit * track.deviation[i][axis]);
-    band.low.push_back(-band.high.back());
-  }
-  band.x = line.x = track.time;
+  Series line = errorLine(track, axis, unit);
+  line.ink = ink;
+  Series band{Kind::kBand, axis == 0 ? "bounds of three standard deviations" : "",
+              Ink::kMuted, track.time,
+              {},          {},
+              {}};
+  for (const Vector3& deviation : track.deviation) band.high.push_back(3 * unit * deviation[axis]);
   Plot plot;
   plot.xLabel = "time since start [s]", plot.yLabel = kLabels[axis];
-  plot.yRange = errorRange(line.y, band.high);
-  for (auto* values : {&band.low, &band.high})
-    for (double& v : *values)
-      v = std::isfinite(v) ? std::clamp(v, plot.yRange->min, plot.yRange->max) : v;
+  plot.xRange = time;
+  plot.yRange = errorRange(line.y, band.high, axis == 2 ? 180 : 1e9);
+  for (double& b : band.high)
+  {
+    b = std::isfinite(b) ? std::min(b, plot.yRange->max) : b;
+    band.low.push_back(-b);
+  }
   plot.series = {band, line};
   return plot;
 }
 
-std::optional<Figure> errorFigure(const ErrorTrack& track, Ink ink)
+Range timeRange(const eval::Record& record)
+{
+  return {0, std::max(record.rows.back().time - record.rows.front().time, 1e-3)};
+}
+
+std::optional<Figure> errorFigure(const ErrorTrack& track, Ink ink, const eval::Record& record)
 {
   if (track.time.empty()) return std::nullopt;
   Figure figure;
   figure.panelHeight = 150;
   for (int axis = 0; axis < (track.headingKnown ? 3 : 2); ++axis)
-    figure.panels.push_back(errorPlot(track, axis, ink));
+    figure.panels.push_back(errorPlot(track, axis, ink, timeRange(record)));
   return figure;
 }
 
@@ -132,7 +151,7 @@ bool allHeadingsKnown(const eval::Evaluation& e)
 std::optional<Figure> robotErrorFigure(const RunView& run)
 {
   const auto covOf = [&](std::size_t row) { return run.record.rows[row].robot.cov; };
-  return errorFigure(errorTrack(run, run.evaluation.robot.steps, covOf), Ink::kBlue);
+  return errorFigure(errorTrack(run, run.evaluation.robot.steps, covOf), Ink::kBlue, run.record);
 }
 
 std::optional<Figure> targetErrorFigure(const RunView& run, std::size_t target)
@@ -144,11 +163,13 @@ std::optional<Figure> targetErrorFigure(const RunView& run, std::size_t target)
     const auto before = [](const eval::TargetRow& r, std::size_t wanted) { return r.row < wanted; };
     return std::lower_bound(rows.begin(), rows.end(), row, before)->pose.cov;
   };
-  return errorFigure(errorTrack(run, run.evaluation.targets[target].steps, covOf), inkOf(target));
+  return errorFigure(errorTrack(run, run.evaluation.targets[target].steps, covOf), inkOf(target),
+                     run.record);
 }
 
 std::optional<Figure> essFigure(const eval::Record& record)
 {
+  if (record.rows.empty()) return std::nullopt;
   Series ess{Kind::kLine, "effective sample size", Ink::kBlue, {}, {}, {}, {}};
   Series ticks{Kind::kTicks, "resampled", Ink::kVermillion, {}, {}, {}, {}};
   for (const auto& step : record.steps)
@@ -160,6 +181,7 @@ std::optional<Figure> essFigure(const eval::Record& record)
   if (ess.x.empty()) return std::nullopt;
   Plot plot;
   plot.xLabel = "time since start [s]", plot.yLabel = "particles";
+  plot.xRange = timeRange(record);
   plot.yRange = Range{0, 1.05 * std::max<double>(record.particles, 1)};
   plot.series = {ticks, ess};
   Figure figure{{plot}};
@@ -180,22 +202,22 @@ std::optional<Figure> neesFigure(const RunView& run)
   for (std::size_t i = 0; i < run.record.targets.size() && i < run.evaluation.targets.size(); ++i)
     curves.push_back(neesOf(run.record, run.evaluation.targets[i].steps, withHeading,
                             nameOf(run.record.targets[i]), inkOf(i)));
-  double last = 0, highest = 0;
+  double highest = 0;
   for (const Series& s : curves)
-    for (std::size_t i = 0; i < s.x.size(); ++i)
-      last = std::max(last, s.x[i]),
-      highest = std::isfinite(s.y[i]) ? std::max(highest, s.y[i]) : highest;
+    for (const double y : s.y) highest = std::isfinite(y) ? std::max(highest, y) : highest;
   if (highest == 0) return std::nullopt;
+  const Range time = timeRange(run.record);
   const double low = math::chiSquareQuantile(0.025, dof),
                high = math::chiSquareQuantile(0.975, dof);
   plot.series = {{Kind::kBand,
                   "95% of a consistent filter's",
                   Ink::kMuted,
-                  {0, last},
+                  {time.min, time.max},
                   {},
                   {low, low},
                   {high, high}}};
   plot.series.insert(plot.series.end(), curves.begin(), curves.end());
+  plot.xRange = time;
   plot.yRange = Range{0.02, std::max(30.0, 1.5 * highest)};
   return Figure{{plot}};
 }

@@ -41,8 +41,8 @@ void addTargetRows(Table& table, const std::string& name, const eval::TargetEval
   };
   add("", t.all);
   add(", at scans", t.atScans);
-  add(", at its sightings", t.atSightings);
-  add(", seen from the robot, at its sightings", t.relativeAtSightings);
+  add(", at sightings", t.atSightings);
+  add(", relative to robot, at sightings", t.relativeAtSightings);
 }
 
 void addMapFacts(Table& table, const eval::LandmarkEvaluation& map)
