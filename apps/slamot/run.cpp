@@ -15,6 +15,7 @@
 
 #include "Command.h"
 #include "Progress.h"
+#include "laserMaps.h"
 #include "sceneOf.h"
 
 namespace slamot::apps
@@ -142,6 +143,7 @@ class Run
       const std::filesystem::path place(folder);
       mrpt::saveScene((place / "scene.3Dscene").string(),
                       sceneOf(results::titleOf(info), view, filter_->particles()));
+      saveLaserMaps(folder, record);
       warning = results::writeReport((place / kReport).string(), info, view);
     };
     results::writeResult(folder_, info, record, evaluation, timing, addPictures);

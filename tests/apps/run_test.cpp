@@ -34,14 +34,19 @@ class Workplace : public TemporaryFolder
     results::saveTruth(file("log.truth"), truth);
   }
 
-  void writeLog(const std::string& name, int steps) const
+  void writeLog(const std::string& name, int steps, bool lasers = false) const
   {
     core::Starts starts;
     starts.time = 0;
     starts.robot.emplace();
     starts.robot->value[core::ObjectStart::kX] = 0.0;
     mrpt::RawlogWriter writer(file(name), mrpt::RawlogWriter::Format::kActionFrames, starts);
-    for (int i = 1; i <= steps; ++i) writer.write(step(i));
+    for (int i = 1; i <= steps; ++i)
+    {
+      core::Step s = step(i);
+      if (lasers) s.lasers = {wallAround()};
+      writer.write(s);
+    }
     writer.close();
   }
 
@@ -56,6 +61,16 @@ class Workplace : public TemporaryFolder
   [[nodiscard]] bool has(const std::string& name) const { return fs::exists(file(name)); }
 
  private:
+  static std::shared_ptr<const core::LaserScan> wallAround()
+  {
+    auto scan = std::make_shared<core::LaserScan>();
+    scan->angleMin = -1.5;
+    scan->angleStep = 0.1;
+    scan->rangeMax = 20;
+    scan->ranges.assign(31, 4.0F);
+    return scan;
+  }
+
   // Along x at 1 m/s, a landmark at (2, 1) in sight at every second step.
   static core::Step step(int i)
   {
@@ -149,6 +164,17 @@ TEST(SlamotRun, RepeatsARunFromTheConfigItWrote)
                 .status,
             0);
   ASSERT_EQ(place.slamot("run a/config.ini log.rawlog -q -o b").status, 0);
+  EXPECT_EQ(contents(place, "a"), contents(place, "b"));
+}
+
+TEST(SlamotRun, WritesMapsOfTheLaserScansItRead)
+{
+  const Workplace place;
+  place.writeLog("laser.rawlog", 5, true);
+  for (const char* out : {"a", "b"})
+    ASSERT_EQ(place.slamot(std::string("run dr.ini laser.rawlog -q -o ") + out).status, 0);
+  EXPECT_TRUE(place.has("a/map.simplemap"));
+  EXPECT_TRUE(place.has("a/grid.png"));
   EXPECT_EQ(contents(place, "a"), contents(place, "b"));
 }
 

@@ -83,6 +83,28 @@ TEST(GridPicture, IsDarkAtTheWallsAndBrightBetween)
   EXPECT_NEAR(at(3, 3), 0.5, 0.05);
 }
 
+TEST(GridPicture, HasXToTheRightAndYUp)
+{
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("grid.png");
+  auto wall = std::make_shared<core::LaserScan>();  // 3 m to the left of a robot that looks along x
+  wall->angleMin = math::degToRad(85.0);
+  wall->angleStep = math::degToRad(0.5);
+  wall->rangeMax = 30;
+  wall->ranges.assign(21, 3.0F);
+  PosedScans s;
+  s.scans = {wall};
+  saveGridPicture(path, {s});
+  ::mrpt::img::CImage image;
+  ASSERT_TRUE(image.loadFromFile(path));
+  std::size_t dark = 0, darkAbove = 0;
+  for (std::size_t y = 0; y < image.getHeight(); ++y)
+    for (std::size_t x = 0; x < image.getWidth(); ++x)
+      if (image.getAsFloat(x, y) < 0.4F) ++dark, darkAbove += y < image.getHeight() / 2 ? 1 : 0;
+  EXPECT_GT(dark, 3u);
+  EXPECT_EQ(dark, darkAbove);
+}
+
 TEST(LaserMaps, SayWhereTheyCantBeWritten)
 {
   EXPECT_THROW(saveGridPicture("/no/such/folder/grid.png", twoScans()), core::Error);
