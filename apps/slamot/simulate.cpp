@@ -7,13 +7,13 @@
 #include <filesystem>
 
 #include "Command.h"
+#include "rawlogOutput.h"
 
 namespace slamot::apps
 {
 namespace
 {
 namespace fs = std::filesystem;
-using core::Error;
 using core::ExitStatus;
 
 struct SimulateOptions
@@ -31,21 +31,6 @@ std::string defaultOutput(const std::string& scenarioPath)
   return (fs::path("slamot-out") / (name + ".rawlog")).string();
 }
 
-std::string checkedOutput(const SimulateOptions& o)
-{
-  const std::string path = o.common.output.empty() ? defaultOutput(o.scenario) : o.common.output;
-  if (fs::path(path).extension() != ".rawlog")
-    throw Error(ExitStatus::kConfig, "--output " + path, "is not named as a rawlog",
-                "end it in .rawlog");
-  const fs::path folder = fs::path(path).parent_path();
-  std::error_code error;
-  if (!folder.empty()) fs::create_directories(folder, error);
-  if (error)
-    throw Error(ExitStatus::kUnreadable, folder.string(), "can't be made: " + error.message(),
-                "write elsewhere");
-  return path;
-}
-
 sim::Scenario readScenario(const SimulateOptions& o)
 {
   core::Config config = core::Config::load(o.scenario);
@@ -55,16 +40,12 @@ sim::Scenario readScenario(const SimulateOptions& o)
   return scenario;
 }
 
-std::string count(std::size_t n, const std::string& what)
-{
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 int simulate(const SimulateOptions& o)
 {
   // As the sensor puts them out: what lies out of its view is for the reader to drop.
   sim::World world(readScenario(o), o.common.seed, sim::World::Sightings::kRaw);
-  const std::string path = checkedOutput(o);
+  const std::string path =
+      rawlogOutput(o.common.output.empty() ? defaultOutput(o.scenario) : o.common.output);
   using Format = mrpt::RawlogWriter::Format;
   mrpt::RawlogWriter writer(
       path, o.format == "frames" ? Format::kActionFrames : Format::kObservations, world.starts());

@@ -9,7 +9,7 @@
 namespace slamot::importers
 {
 /// Which robot of an MRCLAM dataset, and what is told of its sensors.  The defaults of noise were
-/// measured on dataset 6 against its truth; see libs/importers/README.md.
+/// measured on dataset 6 against its truth; see doc/importing.md.
 struct MrclamOptions
 {
   int robot = 0;               ///< 1 to 5
@@ -34,6 +34,7 @@ struct MrclamOptions
 /// least every maxStep.  Measurements of barcodes that no subject but the robot itself has are left
 /// out and counted.  The field of view is the hull of what the robot measured.  The truth has the
 /// times of the steps, and none within gaps of over 0.5 s.  Times stay those of the data.
-/// \throws core::Error (kConfig) on a robot that is none; as the tables' reader does.
+/// \throws core::Error (kConfig) on a robot that is none or deviations that are zero; as the
+/// tables' reader does.
 std::unique_ptr<Import> openMrclam(const std::string& folder, const MrclamOptions& options);
 }  // namespace slamot::importers
