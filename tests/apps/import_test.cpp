@@ -1,0 +1,168 @@
+#include <slamot/importers/CsvFolder.h>
+#include <slamot/importers/Mrclam.h>
+#include <slamot/mrpt/RawlogSource.h>
+#include <slamot/results/TruthFiles.h>
+
+#include "../importers/MrclamData.h"
+#include "../results/TemporaryFolder.h"
+#include "expectNear.h"
+#include "program.h"
+
+namespace slamot
+{
+namespace
+{
+using test::expectNear;
+using test::TemporaryFolder;
+
+/// An import's steps as a rawlog holds them: what was left out leaves no trace there.
+class Written : public core::Source
+{
+ public:
+  explicit Written(importers::Import& import) : import_(import) {}
+  std::optional<core::Step> next() override
+  {
+    auto step = import_.next();
+    if (step) step->dropped = 0;
+    return step;
+  }
+
+ private:
+  importers::Import& import_;
+};
+
+/// That what the program wrote to a.rawlog and a.truth reads as the import in memory.
+int expectSame(importers::Import& import, const TemporaryFolder& folder)
+{
+  mrpt::RawlogSource source(folder.file("a.rawlog"), {});
+  EXPECT_NEAR(*source.starts().time, *import.starts().time, test::kTick);
+  EXPECT_EQ(source.starts().robot.has_value(), import.starts().robot.has_value());
+  if (import.starts().robot) expectNear(*source.starts().robot, *import.starts().robot);
+  EXPECT_EQ(source.starts().targets.size(), import.starts().targets.size());
+  for (const auto& [id, start] : import.starts().targets)
+    expectNear(source.starts().targets.at(id), start);
+  Written written(import);
+  const int steps = expectNear(written, source);
+  expectNear(results::loadTruth(folder.file("a.truth")), import.truth());
+  return steps;
+}
+
+void writeDrive(const TemporaryFolder& folder)
+{
+  std::string odometry = "t,v,omega,std_v,std_omega\n", robot = "t,x,y,theta\n0,1,2,0.5\n",
+              sightings = "t,range,bearing,std_range,std_bearing,id\n0,3,1,0.1,0.01,5\n";
+  for (int i = 1; i <= 20; ++i)
+  {
+    const std::string t = std::to_string(i * 0.1);
+    odometry += t + ",1.5,-0.3,0.05,0.02\n";
+    robot += t + ",1." + std::to_string(i) + ",2,\n";
+    if (i % 4 == 0) sightings += t + ",,,,,\n";
+    if (i % 4 == 1) sightings += t + ",2.5,-1,0.1,0.01,5\n" + t + ",4,1.5,0.2,0.02,-1\n";
+    if (i % 4 == 2) sightings += std::to_string(i * 0.1 + 0.0333333) + ",2,0,0.1,0.01,6\n";
+  }
+  folder.write("drive/odometry.csv", odometry);
+  folder.write("drive/truth_robot.csv", robot);
+  folder.write("drive/landmark_sightings.csv", sightings);
+  folder.write("drive/truth_landmarks.csv", "id,x,y\n5,1,1\n6,2,2\n");
+  folder.write("drive/truth_target_3.csv", "t,x,y,theta\n0.5,1,1,\n0.6,1,1,\n");
+  folder.write("drive/fov.csv", "range_min,range_max,bearing_min,bearing_max\n0.1,4,-2,1.6\n");
+  folder.write("drive/blobs.csv",
+               "t,label,range,bearing,std_range,std_bearing,id\n0.5,target,,0.3,,0.01,3\n"
+               "0.6,robot,2,-0.3,0.1,0.01,-1\n0.6,robot,2.5,-0.3,0.1,0.01,-1\n0.7,,,,,,\n");
+  folder.write("drive/start.csv",
+               "object,x,y,theta,vx,vy,ax,ay,std_x,std_y,std_theta,std_vx,std_vy,std_ax,std_ay\n"
+               "robot,1,2,0.5,,,,,0,0,0.1,,,,\ntarget_3,4,5,,1,,,,0.1,0.1,,,,,\n");
+}
+
+TEST(ImportCommand, CsvFolderReadsBackAsItWas)
+{
+  const TemporaryFolder folder;
+  writeDrive(folder);
+  const auto outcome = test::slamot("import csv drive -o a.rawlog", folder.file(""));
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_EQ(outcome.text,
+            "a.rawlog: 26 steps, 16 sightings in 16 scans, 3 blobs in 3 scans, 0 laser scans, 0 "
+            "dropped, 2.000 s; truth: a.truth\n");
+  EXPECT_EQ(expectSame(*importers::openCsvFolder(folder.file("drive")), folder), 26);
+}
+
+TEST(ImportCommand, LaserScansComeThrough)
+{
+  const TemporaryFolder folder;
+  folder.write("drive/odometry.csv", "t,v,omega,std_v,std_omega\n0.5,1,0,0,0\n");
+  folder.write("drive/scans.csv",
+               "t,angle_min,angle_step,range_max,r0,r1,r2\n0.5,-0.4,0.3,8,1.5,inf,2.5\n");
+  ASSERT_EQ(test::slamot("import csv drive -q -o a.rawlog", folder.file("")).text, "");
+  mrpt::RawlogSource source(folder.file("a.rawlog"), {});
+  const auto step = source.next();
+  ASSERT_TRUE(step && step->lasers.size() == 1);
+  const core::LaserScan& scan = *step->lasers[0];
+  EXPECT_NEAR(scan.pose_robot_sensor.phi + scan.angleMin, -0.4, 1e-6);
+  EXPECT_NEAR(scan.angleStep, 0.3, 1e-6);
+  ASSERT_EQ(scan.ranges.size(), 3u);
+  EXPECT_EQ(scan.ranges[2], 2.5f);
+  EXPECT_GT(scan.ranges[1], scan.rangeMax);
+}
+
+TEST(ImportCommand, MrclamReadsBackAsItWas)
+{
+  const TemporaryFolder folder;
+  test::writeMrclam(folder);
+  const auto outcome =
+      test::slamot("import mrclam . --robot 1 --no-landmark-ids -o a.rawlog", folder.file(""));
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("5 dropped (1 at range <= 0 or out of the field of view, 2 outside "
+                              "odometry's time, 2 with an unknown or the robot's own barcode)"),
+            std::string::npos)
+      << outcome.text;
+  importers::MrclamOptions options;
+  options.robot = 1;
+  options.landmarkIds = false;
+  EXPECT_GT(expectSame(*importers::openMrclam(folder.file(""), options), folder), 20);
+}
+
+TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
+{
+  const TemporaryFolder folder;
+  const auto expect = [&](const std::string& arguments, int status, const std::string& line)
+  {
+    const auto outcome = test::slamot("import " + arguments, folder.file(""));
+    EXPECT_EQ(outcome.status, status);
+    EXPECT_EQ(outcome.text, "slamot: error: " + line + "\n");
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.rawlog")));
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.truth")));
+  };
+  writeDrive(folder);
+  folder.write("drive/odometry.csv", "t,v,omega,std_v,std_omega\n0.1,1,0,0,0\n0.2,nan,0,0,0\n");
+  expect("csv drive -o a.rawlog", 4,
+         "drive/odometry.csv line 3: column v: 'nan' makes no sense; values must be finite and "
+         "below 1e10");
+  folder.write("drive/odometry.csv", "t,v,omega,std_v,std_omega\n0.1,1,0,0\n");
+  expect("csv drive -o a.rawlog", 2,
+         "drive/odometry.csv line 2: the row has 4 columns instead of 5; write commas between "
+         "fields and '.' as decimal point");
+  expect("csv nowhere -o a.rawlog", 2,
+         "nowhere: is not a folder; give a folder with an odometry.csv");
+  expect("xml drive -o a.rawlog", 1,
+         "command line: kind: xml not in {csv,mrclam}; see slamot --help");
+  expect("csv drive --robot 1 -o a.rawlog", 1,
+         "command line: --robot is an option of mrclam; remove it");
+  expect("mrclam drive -o a.rawlog", 1,
+         "command line: mrclam needs a robot; add --robot N, 1 to 5");
+  expect("csv drive -o a.log", 1, "--output a.log: is not named as a rawlog; end it in .rawlog");
+}
+
+TEST(ImportCommand, OlderTruthIsReplaced)
+{
+  const TemporaryFolder folder;
+  writeDrive(folder);
+  ASSERT_EQ(test::slamot("import csv drive -o a.rawlog", folder.file("")).status, 0);
+  folder.write("bare/odometry.csv", "t,v,omega,std_v,std_omega\n0.1,1,0,0,0\n");
+  const auto outcome = test::slamot("import csv bare -o a.rawlog", folder.file(""));
+  EXPECT_NE(outcome.text.find("truth: none"), std::string::npos) << outcome.text;
+  const eval::Truth truth = results::loadTruth(folder.file("a.truth"));
+  EXPECT_TRUE(truth.robot.empty() && truth.targets.empty() && truth.landmarks.empty());
+}
+
+}  // namespace
+}  // namespace slamot
