@@ -14,52 +14,67 @@ std::string fixed(double v, int decimals)
   return text;
 }
 
-std::string padded(std::string text, std::size_t width = 18)
+constexpr std::size_t kNameWidth = 26;
+
+std::string left(std::string text)
 {
-  text.resize(std::max(width, text.size() + 1), ' ');
+  text.resize(std::max(kNameWidth, text.size() + 1), ' ');
   return text;
+}
+
+std::string right(const std::string& text, std::size_t width)
+{
+  return std::string(width > text.size() ? width - text.size() : 1, ' ') + text;
+}
+
+std::string cell(const std::optional<double>& v, int decimals, std::size_t width)
+{
+  return right(v ? fixed(*v, decimals) : "-", width);
+}
+
+std::string header()
+{
+  return left("") + "  steps  position error [m]  heading [rad]     NEES  in 95%\n" + left("") +
+         "            mean      rmse           rmse     of 3 ellipse\n";
 }
 
 std::string errorLine(const std::string& name, const eval::ErrorSummary& e)
 {
-  std::string line = "  " + padded(name);
-  if (!e.positionMean) return line + "no truth at its times\n";
-  line +=
-      "position " + fixed(*e.positionMean, 3) + " m mean, " + fixed(*e.positionRmse, 3) + " m rmse";
-  if (e.headingRmse) line += "; heading " + fixed(*e.headingRmse, 4) + " rad rmse";
-  if (e.neesMean) line += "; NEES " + fixed(*e.neesMean, 2) + " (3 expected)";
-  if (e.coverage95) line += "; " + fixed(100 * *e.coverage95, 1) + "% inside the 95% ellipse";
-  line += "; " + std::to_string(e.count) + " steps";
-  if (e.neesSkipped > 0)
-    line += ", " + std::to_string(e.neesSkipped) + " of them without a covariance to judge by";
-  return line + "\n";
+  std::optional<double> percent;
+  if (e.coverage95) percent = 100 * *e.coverage95;
+  return left(name) + right(std::to_string(e.count), 7) + cell(e.positionMean, 3, 9) +
+         cell(e.positionRmse, 3, 10) + cell(e.headingRmse, 4, 15) + cell(e.neesMean, 2, 9) +
+         (percent ? cell(percent, 1, 7) + "%" : right("-", 8)) + "\n";
 }
 
 std::string targetLines(const eval::TargetEvaluation& t, bool detailed)
 {
   const std::string name = "target " + std::to_string(t.id);
-  if (!t.truthId) return "  " + padded(name) + "stands for no target of the truth\n";
-  if (!t.all.positionMean) return "  " + padded(name) + "never tracked\n";
+  if (!t.truthId) return left(name) + "stands for no true target\n";
+  if (t.all.count == 0) return left(name) + "never tracked\n";
   std::string text = errorLine(name, t.all);
+  const auto add = [&](const std::string& part, const eval::ErrorSummary& e)
+  {
+    if (e.count > 0) text += errorLine("  " + part, e);
+  };
+  if (detailed)
+  {
+    add("at scans", t.atScans);
+    add("at sightings", t.atSightings);
+    add("as seen from the robot", t.relativeAtSightings);
+    for (const eval::SinceSeen& bin : t.sinceSeen)
+      add("unseen " + fixed(bin.from, 0) + (bin.to < 1e8 ? " to " + fixed(bin.to, 0) : "+") + " s",
+          bin.errors);
+  }
   if (t.trackedFraction)
-    text += "  " + padded("") + "tracked in " + fixed(100 * *t.trackedFraction, 1) + "% of steps\n";
-  if (!detailed) return text;
-  if (t.atScans.count > 0) text += errorLine("  at scans", t.atScans);
-  if (t.atSightings.count > 0) text += errorLine("  at sightings", t.atSightings);
-  if (t.relativeAtSightings.count > 0)
-    text += errorLine("  seen from robot", t.relativeAtSightings);
-  for (const eval::SinceSeen& bin : t.sinceSeen)
-    if (bin.errors.count > 0)
-      text += errorLine("  unseen " + fixed(bin.from, 0) +
-                            (bin.to < 1e8 ? " to " + fixed(bin.to, 0) + " s" : " s and more"),
-                        bin.errors);
+    text += left("  tracked") + fixed(100 * *t.trackedFraction, 1) + "% of its steps\n";
   return text;
 }
 
 std::string landmarkLine(const eval::LandmarkEvaluation& l)
 {
   if (!l.mapped) return {};
-  std::string line = "  " + padded("landmarks") + std::to_string(*l.mapped) + " mapped";
+  std::string line = left("landmarks") + std::to_string(*l.mapped) + " mapped";
   if (l.trueOnes)
     line += ", " + std::to_string(*l.trueOnes) + " true, " +
             std::to_string(*l.mapped - *l.trueOnes) + " false";
@@ -71,7 +86,7 @@ std::string landmarkLine(const eval::LandmarkEvaluation& l)
 std::string associationLine(const std::optional<eval::AssociationCounts>& a)
 {
   if (!a) return {};
-  std::string line = "  " + padded("sightings");
+  std::string line = left("sightings");
   if (a->correct) line += std::to_string(*a->correct) + " paired right, ";
   if (a->wrong) line += std::to_string(*a->wrong) + " wrong, ";
   return line + std::to_string(a->created) + " new, " + std::to_string(a->rejected) + " rejected\n";
@@ -85,13 +100,17 @@ std::string summaryTable(const eval::Record& record, const eval::Evaluation& e, 
   if (detailed && e.robot.atScans.count > 0) text += errorLine("  at scans", e.robot.atScans);
   for (const eval::TargetEvaluation& t : e.targets)
     if (!e.trueTargets.empty()) text += targetLines(t, detailed);
+  if (!text.empty()) text = header() + text;
+  if (e.robot.all.coverage95 && e.robot.all.neesSkipped > 0)
+    text += left("") + "NEES leaves out " + std::to_string(e.robot.all.neesSkipped) +
+            " of the robot's steps, where its covariance is singular, as at an exact start\n";
   text += landmarkLine(e.landmarks);
   text += associationLine(e.association);
   int dropped = 0;
   for (const eval::StepRow& s : record.steps) dropped += s.dropped;
   if (dropped > 0)
-    text += "  " + padded("dropped") + std::to_string(dropped) +
-            " sightings at or below range 0 or out of the field of view\n";
+    text += left("dropped") + std::to_string(dropped) +
+            " sightings, at or below range 0 or out of the field of view\n";
   return text;
 }
 }  // namespace slamot::results
