@@ -85,6 +85,19 @@ TEST(Metrics, QuartersAreOfTheRun)
   EXPECT_FALSE(values[*metricByName("pairs_wrong")]);
 }
 
+TEST(Metrics, MedianNeesWithstandsACollapse)
+{
+  eval::Record record;
+  record.rows.resize(3);
+  eval::Evaluation e;
+  for (const double nees : {1.0, 1e12, 2.0})
+  {
+    e.robot.steps.push_back(stepError(0, 0, 0));
+    e.robot.steps.back().nees = nees;
+  }
+  EXPECT_DOUBLE_EQ(*measure(record, e)[*metricByName("robot_nees_median")], 2.0);
+}
+
 TEST(Metrics, OfTargetsAreTheMeanOverTargets)
 {
   eval::Record record;

@@ -1,3 +1,4 @@
+#include <slamot/math/statistics.h>
 #include <slamot/study/Metrics.h>
 
 #include <algorithm>
@@ -42,6 +43,16 @@ Value headingMean(const std::vector<StepError>& steps)
   return meanOver(
       steps, [](const StepError& s) { return s.headingKnown; },
       [](const StepError& s) { return std::abs(s.error[2]); });
+}
+
+/// A collapsed particle set claims certainty, and its NEES outweighs all others in a mean.
+Value neesMedian(const std::vector<StepError>& steps)
+{
+  std::vector<double> values;
+  for (const StepError& s : steps)
+    if (s.nees) values.push_back(*s.nees);
+  if (values.empty()) return std::nullopt;
+  return math::quantile(values, 0.5);
 }
 
 /// Mean position error over the rows in [from, to), as shares of the run.
@@ -94,6 +105,16 @@ std::function<Value(const Run&)> target(ErrorSummary eval::TargetEvaluation::*pa
 Value robotHeadingMean(const Run& r)
 {
   return headingMean(r.evaluation.robot.steps);
+}
+
+Value robotNeesMedian(const Run& r)
+{
+  return neesMedian(r.evaluation.robot.steps);
+}
+
+Value targetNeesMedian(const Run& r)
+{
+  return overTargets(r, [](const auto& t) { return neesMedian(t.steps); });
 }
 
 Value targetHeadingMean(const Run& r)
@@ -154,7 +175,8 @@ const std::vector<Entry>& entries()
        robot(&E::positionMean, true)},
       {{"robot_scans_heading_rmse_rad", "robot heading RMSE at scans [rad]", 4},
        robot(&E::headingRmse, true)},
-      {{"robot_nees", "robot NEES (3 expected)", 2}, robot(&E::neesMean)},
+      {{"robot_nees", "robot NEES, mean (3 expected)", 2}, robot(&E::neesMean)},
+      {{"robot_nees_median", "robot NEES, median (2.37 expected)", 2}, robotNeesMedian},
       {{"robot_nees_position", "robot position NEES (2 expected)", 2}, robot(&E::neesPositionMean)},
       {{"robot_coverage95", "robot inside 95% ellipse", 3}, robot(&E::coverage95)},
       {{"robot_scans_coverage95", "robot inside 95% ellipse at scans", 3},
@@ -172,7 +194,8 @@ const std::vector<Entry>& entries()
       {{"target_late_mean_m", "target position error, last quarter [m]", 4}, targetLate},
       {{"target_relative_mean_m", "target error from the robot, at sightings [m]", 4},
        target(&T::relativeAtSightings, &E::positionMean)},
-      {{"target_nees", "target NEES (3 expected)", 2}, target(&T::all, &E::neesMean)},
+      {{"target_nees", "target NEES, mean (3 expected)", 2}, target(&T::all, &E::neesMean)},
+      {{"target_nees_median", "target NEES, median (2.37 expected)", 2}, targetNeesMedian},
       {{"target_nees_position", "target position NEES (2 expected)", 2},
        target(&T::all, &E::neesPositionMean)},
       {{"target_coverage95", "target inside 95% ellipse", 3}, target(&T::all, &E::coverage95)},

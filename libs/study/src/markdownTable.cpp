@@ -3,6 +3,8 @@
 #include <slamot/study/Metrics.h>
 #include <slamot/study/tables.h>
 
+#include <cmath>
+
 #include "specReading.h"
 #include "tableText.h"
 
@@ -13,8 +15,11 @@ namespace
 constexpr int kRatioDecimals = 3;
 constexpr std::size_t kFailuresShown = 20;
 
+constexpr double kTooLong = 1e5;  // to be written out
+
 std::string fixed(double value, int decimals)
 {
+  if (std::abs(value) >= kTooLong) return scientific(value);
   std::string out;
   results::appendFixed(out, value, decimals);
   return out;

@@ -11,6 +11,14 @@ std::string shortest(double value)
   return {text, end};
 }
 
+std::string scientific(double value)
+{
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, 2).ptr;
+  return {text, end};
+}
+
 std::string csvField(const std::string& text)
 {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;

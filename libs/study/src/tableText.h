@@ -10,6 +10,9 @@ namespace slamot::study
 /// The shortest text that reads back the same number.
 [[nodiscard]] std::string shortest(double value);
 
+/// With three digits, as 1.23e+08.
+[[nodiscard]] std::string scientific(double value);
+
 /// A field of a CSV file, in quotes where it needs them.
 [[nodiscard]] std::string csvField(const std::string& text);
 [[nodiscard]] std::string csvLine(const std::vector<std::string>& fields);
