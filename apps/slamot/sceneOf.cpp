@@ -6,12 +6,17 @@ namespace slamot::apps
 {
 namespace
 {
-mrpt::Polyline moved(const Pose2D& frame, const eval::Trajectory& trajectory)
+/// Appends true paths, moved into another frame; in pieces where nothing is known for a while.
+void appendTruth(std::vector<mrpt::Polyline>& pieces, const Pose2D& frame,
+                 const eval::Trajectory& trajectory)
 {
-  mrpt::Polyline line;
-  for (const auto& p : trajectory.poses)
-    line.push_back(math::transform(frame, {p.pose.x, p.pose.y}));
-  return line;
+  const double gap = eval::EvaluationOptions{}.maxTruthGap;
+  for (std::size_t i = 0; i < trajectory.poses.size(); ++i)
+  {
+    const auto& p = trajectory.poses[i];
+    if (i == 0 || p.time - trajectory.poses[i - 1].time > gap) pieces.emplace_back();
+    pieces.back().push_back(math::transform(frame, {p.pose.x, p.pose.y}));
+  }
 }
 
 mrpt::SceneTrack robotOf(const results::RunView& run, const Pose2D& mapFromTruth)
@@ -22,7 +27,7 @@ mrpt::SceneTrack robotOf(const results::RunView& run, const Pose2D& mapFromTruth
   for (const auto& row : run.record.rows)
     track.path.back().push_back({row.robot.mean.x, row.robot.mean.y});
   if (!run.record.rows.empty()) track.now = run.record.rows.back().robot;
-  if (!run.truth.robot.empty()) track.truth = {moved(mapFromTruth, run.truth.robot)};
+  appendTruth(track.truth, mapFromTruth, run.truth.robot);
   return track;
 }
 
@@ -65,7 +70,7 @@ mrpt::SceneData sceneOf(const std::string& title, const results::RunView& run,
   for (const auto& target : run.record.targets)
     scene.targets.push_back(targetOf(target, run.record.rows.size()));
   for (const auto& [id, trajectory] : run.truth.targets)
-    scene.robot.truth.push_back(moved(mapFromTruth, trajectory));
+    appendTruth(scene.robot.truth, mapFromTruth, trajectory);
   scene.landmarks = run.record.landmarks;
   for (const auto& [id, p] : run.truth.landmarks)
     scene.trueLandmarks.push_back(math::transform(mapFromTruth, p));

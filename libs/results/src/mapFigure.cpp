@@ -8,6 +8,7 @@ namespace slamot::results
 namespace
 {
 using Kind = Series::Kind;
+const double kTruthGap = eval::EvaluationOptions{}.maxTruthGap;
 constexpr std::size_t kNamedTargets = 6;  ///< more do not fit the legend
 
 void appendPoint(Series& s, double x, double y)
@@ -43,7 +44,11 @@ struct TruthMover
   }
   void append(Series& s, const eval::Trajectory& t) const
   {
-    for (const auto& p : t.poses) append(s, Point2D{p.pose.x, p.pose.y});
+    for (std::size_t i = 0; i < t.poses.size(); ++i)
+    {
+      if (i > 0 && t.poses[i].time - t.poses[i - 1].time > kTruthGap) breakLine(s);
+      append(s, Point2D{t.poses[i].pose.x, t.poses[i].pose.y});
+    }
     breakLine(s);
   }
 };
