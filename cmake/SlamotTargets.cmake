@@ -7,6 +7,10 @@ if(SLAMOT_SANITIZE)
   add_compile_options(-fsanitize=${SLAMOT_SANITIZE} -fno-omit-frame-pointer -g)
   add_link_options(-fsanitize=${SLAMOT_SANITIZE})
 endif()
+if(SLAMOT_BUILD_FUZZ)  # coverage for the fuzzer and checks, in all libraries
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-omit-frame-pointer -g)
+  add_link_options(-fsanitize=fuzzer-no-link,address,undefined)
+endif()
 
 # slamot_library(NAME [SHARED] SOURCES a.cpp ... [DEPENDS targets ...] [PRIVATE_DEPENDS targets ...])
 # Makes lib slamot-NAME with alias slamot::NAME, headers in include/, installed and exported.

@@ -205,6 +205,21 @@ TEST(RawlogFault, FilesThatAreNoRawlogsAreUnreadable)
   EXPECT_TRUE(has(read(path).message, "is not a rawlog"));
 }
 
+TEST(RawlogFault, FuzzersCorpusIsReadOrRefused)
+{
+  std::size_t files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(SLAMOT_FUZZ_CORPUS))
+  {
+    for (const bool salvage : {false, true})
+    {
+      const Outcome o = read(file.path().string(), salvage);
+      EXPECT_NE(o.status, ExitStatus::kInternal) << file.path() << ": " << o.message;
+    }
+    ++files;
+  }
+  EXPECT_GE(files, 5u);
+}
+
 TEST(RawlogFault, UnknownClassNamesItsEntryAndThePluginOption)
 {
   const TemporaryFolder folder;

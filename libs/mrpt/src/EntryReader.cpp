@@ -15,7 +15,7 @@ using core::ExitStatus;
 
 namespace
 {
-constexpr std::size_t kFirstRead = 1u << 20;  // [byte]
+constexpr std::size_t kRead = 1u << 17;  // [byte] at a time, or more where an entry is larger
 }
 
 std::optional<Entry> EntryReader::next()
@@ -62,7 +62,7 @@ bool EntryReader::grow()
   std::copy(window_.begin() + static_cast<std::ptrdiff_t>(begin_),
             window_.begin() + static_cast<std::ptrdiff_t>(end_), window_.begin());
   begin_ = 0, end_ = held;
-  const std::size_t wanted = std::max(kFirstRead, held);
+  const std::size_t wanted = std::max(kRead, held);
   if (window_.size() < held + wanted) window_.resize(held + wanted);
   const std::size_t got = input_.read(window_.data() + held, wanted);
   end_ += got;

@@ -1,15 +1,21 @@
 #include "readMotion.h"
 
-#include <mrpt/poses/CPosePDF.h>
+#include <mrpt/poses/CPosePDFGaussianInf.h>
+#include <mrpt/poses/CPosePDFParticles.h>
+
+#include <Eigen/LU>
+#include <algorithm>
 
 #include <cmath>
 #include <exception>
+#include <limits>
 
 namespace slamot::mrpt
 {
 namespace
 {
 using ::mrpt::obs::CActionRobotMovement2D;
+using ::mrpt::poses::CPosePDFParticles;
 
 double square(double v)
 {
@@ -41,27 +47,63 @@ Gaussian<Pose2D> thrunMoments(
   out.cov(2, 2) = sa * sa + sb * sb + square(o.additional_std_phi);
   return out;
 }
+// MRPT takes the absolute difference of headings, which loses their correlation with the position.
+Gaussian<Pose2D> particleMoments(const CPosePDFParticles& pdf)
+{
+  double heaviest = -std::numeric_limits<double>::infinity();
+  for (const auto& p : pdf.m_particles) heaviest = std::max(heaviest, p.log_w);
+  double sum = 0, c = 0, s = 0;
+  Gaussian<Pose2D> out;
+  for (const auto& p : pdf.m_particles)
+  {
+    const double w = std::exp(p.log_w - heaviest);
+    sum += w, c += w * std::cos(p.d.phi), s += w * std::sin(p.d.phi);
+    out.mean.x += w * p.d.x, out.mean.y += w * p.d.y;
+  }
+  out.mean = {out.mean.x / sum, out.mean.y / sum, std::atan2(s, c)};
+  for (const auto& p : pdf.m_particles)
+  {
+    const Vector3 e(p.d.x - out.mean.x, p.d.y - out.mean.y, math::wrapToPi(p.d.phi - out.mean.phi));
+    out.cov += std::exp(p.log_w - heaviest) / sum * e * e.transpose();
+  }
+  return out;
+}
+
+Gaussian<Pose2D> momentsOf(const ::mrpt::poses::CPosePDF& pdf)
+{
+  if (const auto* particles = dynamic_cast<const CPosePDFParticles*>(&pdf))
+    return particleMoments(*particles);
+  Gaussian<Pose2D> out;
+  if (const auto* inf = dynamic_cast<const ::mrpt::poses::CPosePDFGaussianInf*>(&pdf))
+  {
+    // Loading, MRPT fills in the upper half only.
+    const Matrix3 information = inf->cov_inv.asEigen().selfadjointView<Eigen::Upper>();
+    out.mean = inf->mean.asTPose();
+    out.cov = information.inverse();
+    return out;
+  }
+  const auto [cov, mean] = pdf.getCovarianceAndMean();
+  out.mean = mean.asTPose();
+  out.cov = cov.asEigen();
+  return out;
+}
 }  // namespace
 
 Gaussian<Pose2D> incrementOf(const CActionRobotMovement2D& action, const Entry& entry)
 {
+  const bool isThrun =
+      action.estimationMethod == CActionRobotMovement2D::emOdometry &&
+      action.motionModelConfiguration.modelSelection == CActionRobotMovement2D::mmThrun;
   Gaussian<Pose2D> out;
-  if (action.estimationMethod == CActionRobotMovement2D::emOdometry &&
-      action.motionModelConfiguration.modelSelection == CActionRobotMovement2D::mmThrun)
-    out = thrunMoments(action.rawOdometryIncrementReading.asTPose(),
-                       action.motionModelConfiguration.thrunModel);
-  else
+  try
   {
-    try
-    {
-      const auto [cov, mean] = action.poseChange->getCovarianceAndMean();
-      out.mean = mean.asTPose();
-      out.cov = cov.asEigen();
-    }
-    catch (const std::exception&)
-    {
-      entry.fail("the odometry's covariance can't be had from its PDF", "mend the log");
-    }
+    out = isThrun ? thrunMoments(action.rawOdometryIncrementReading.asTPose(),
+                                 action.motionModelConfiguration.thrunModel)
+                  : momentsOf(*action.poseChange);
+  }
+  catch (const std::exception&)
+  {
+    entry.fail("the odometry's covariance can't be had from its PDF", "mend the log");
   }
   if (!std::isfinite(out.mean.x + out.mean.y + out.mean.phi) || !out.cov.allFinite())
     entry.fail("the odometry is not a number", "mend the log");
