@@ -6,9 +6,11 @@
 #include <slamot/study/Metrics.h>
 #include <slamot/study/tables.h>
 
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <map>
+#include <set>
 
 namespace slamot::study
 {
@@ -32,31 +34,47 @@ std::string curveTitle(const Plan& plan, const PlotSpec& plot, std::size_t cell,
   return out;
 }
 
-void addCurves(const Plan& plan, const Outcome& outcome, const PlotSpec& plot, std::size_t metric,
-               results::Plot& panel)
+/// Curves by their titles, in the order of methods: a curve has one colour in all panels.
+std::map<std::string, results::Ink> inksOf(const Plan& plan, const PlotSpec& plot)
 {
+  using results::Ink;
+  constexpr std::array kInks = {Ink::kVermillion, Ink::kBlue,   Ink::kOrange, Ink::kSky,
+                                Ink::kGreen,      Ink::kPurple, Ink::kText,   Ink::kMuted};
+  std::map<std::string, Ink> out;
+  for (std::size_t m = 0; m < plan.spec.methods.size(); ++m)
+    for (std::size_t c = 0; c < plan.cells.size(); ++c)
+      out.emplace(curveTitle(plan, plot, c, m), kInks[out.size() % kInks.size()]);
+  return out;
+}
+
+void addPoint(results::Series& series, double x, const math::MeanInterval& s)
+{
+  series.x.push_back(x);
+  series.y.push_back(s.mean);
+  series.low.push_back(s.mean - s.halfWidth95);
+  series.high.push_back(s.mean + s.halfWidth95);
+}
+
+std::vector<results::Series> curvesOf(const Plan& plan, const Outcome& outcome,
+                                      const PlotSpec& plot, std::size_t metric)
+{
+  const auto inks = inksOf(plan, plot);
+  std::vector<results::Series> curves;
   std::map<std::string, std::size_t> places;
   for (std::size_t m = 0; m < plan.spec.methods.size(); ++m)
     for (std::size_t c = 0; c < plan.cells.size(); ++c)
     {
       const auto s = statistics(outcome.values(plan, plan.groupOf[c][m], metric));
       if (s.count == 0) continue;
-      const auto [it, isNew] = places.emplace(curveTitle(plan, plot, c, m), panel.series.size());
+      const std::string title = curveTitle(plan, plot, c, m);
+      const auto [it, isNew] = places.emplace(title, curves.size());
       if (isNew)
-      {
-        results::Series series;
-        series.kind = results::Series::Kind::kErrorBars;
-        series.title = it->first;
-        series.ink = results::inkOf(places.size() - 1);
-        panel.series.push_back(series);
-      }
-      results::Series& series = panel.series[it->second];
-      series.x.push_back(
-          numberOf(plan.spec.axes[plot.axis].values[plan.cells[c].values[plot.axis]]));
-      series.y.push_back(s.mean);
-      series.low.push_back(s.mean - s.halfWidth95);
-      series.high.push_back(s.mean + s.halfWidth95);
+        curves.push_back(
+            {results::Series::Kind::kErrorBars, title, inks.at(title), {}, {}, {}, {}});
+      const Axis& axis = plan.spec.axes[plot.axis];
+      addPoint(curves[it->second], numberOf(axis.values[plan.cells[c].values[plot.axis]]), s);
     }
+  return curves;
 }
 
 void makeFolder(const std::string& folder)
@@ -72,6 +90,7 @@ void makeFolder(const std::string& folder)
 results::Figure figureOf(const Plan& plan, const Outcome& outcome, const PlotSpec& plot)
 {
   results::Figure figure;
+  std::set<std::string> named;  // a curve is in the legend of the first panel that has it
   for (const std::string& name : plot.metrics)
   {
     results::Plot panel;
@@ -79,7 +98,9 @@ results::Figure figureOf(const Plan& plan, const Outcome& outcome, const PlotSpe
     panel.xLabel = plan.spec.axes[plot.axis].label;
     panel.yLabel = metrics()[*metricByName(name)].label;
     panel.logX = plot.logX;
-    addCurves(plan, outcome, plot, *metricByName(name), panel);
+    panel.series = curvesOf(plan, outcome, plot, *metricByName(name));
+    for (results::Series& curve : panel.series)
+      if (!named.insert(curve.title).second) curve.title.clear();
     figure.panels.push_back(panel);
   }
   return figure;
