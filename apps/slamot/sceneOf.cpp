@@ -46,6 +46,19 @@ mrpt::SceneTrack targetOf(const eval::TargetTrack& target, std::size_t rowsOfRun
   return track;
 }
 
+/// True paths go to the first track that stands for them; those of no track to the robot's.
+void addTrueTargets(mrpt::SceneData& scene, const results::RunView& run, const Pose2D& mapFromTruth)
+{
+  const auto& tracks = run.evaluation.targets;
+  for (const auto& [id, trajectory] : run.truth.targets)
+  {
+    auto* owner = &scene.robot;
+    for (std::size_t i = scene.targets.size(); i-- > 0;)
+      if (i < tracks.size() && tracks[i].truthId == id) owner = &scene.targets[i];
+    appendTruth(owner->truth, mapFromTruth, trajectory);
+  }
+}
+
 /// The points that a scan saw, in the map's frame.
 void appendPoints(std::vector<Point2D>& points, const core::LaserScan& scan, const Pose2D& robot)
 {
@@ -69,8 +82,7 @@ mrpt::SceneData sceneOf(const std::string& title, const results::RunView& run,
   scene.robot = robotOf(run, mapFromTruth);
   for (const auto& target : run.record.targets)
     scene.targets.push_back(targetOf(target, run.record.rows.size()));
-  for (const auto& [id, trajectory] : run.truth.targets)
-    appendTruth(scene.robot.truth, mapFromTruth, trajectory);
+  addTrueTargets(scene, run, mapFromTruth);
   scene.landmarks = run.record.landmarks;
   for (const auto& [id, p] : run.truth.landmarks)
     scene.trueLandmarks.push_back(math::transform(mapFromTruth, p));

@@ -94,7 +94,7 @@ TEST(Scene, LoadsBackWithAllThatWasPutIn)
   MrptScene scene;
   ASSERT_TRUE(scene.loadFromFile(folder.file("a.3Dscene")));
   for (const char* name :
-       {"grid", "robot path", "robot", "robot ellipse", "target 1 path", "true paths", "landmarks",
+       {"grid", "robot path", "robot", "robot ellipse", "target 1 path", "robot truth", "landmarks",
         "landmark ellipses", "true landmarks", "particles"})
     EXPECT_TRUE(scene.getViewport()->getByName(name)) << name;
   EXPECT_FALSE(scene.getViewport()->getByName("target 1")) << "it is lost at the end";

@@ -101,7 +101,7 @@ void Mesh::ribbon(const Polyline& line, double width, double z)
   }
 }
 
-void Mesh::ellipse(const Gaussian<Point2D>& g, double rim, double z)
+void Mesh::ellipse(const Gaussian<Point2D>& g, double rim, double z, bool filled)
 {
   const Eigen::SelfAdjointEigenSolver<Matrix2> eigen(g.cov);
   const double scale = std::sqrt(math::chiSquareQuantile(0.95, 2));
@@ -122,6 +122,7 @@ void Mesh::ellipse(const Gaussian<Point2D>& g, double rim, double z)
     triangle({inner[i], z}, {outer[i], z}, {outer[i + 1], z});
     triangle({inner[i], z}, {outer[i + 1], z}, {inner[i + 1], z});
   }
+  if (!filled) return;
   const auto solid = colour_;
   const auto pale = [](std::uint8_t c) { return static_cast<std::uint8_t>(255 - (255 - c) / 3); };
   colour_ = {pale(solid.R), pale(solid.G), pale(solid.B)};

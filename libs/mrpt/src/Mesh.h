@@ -19,8 +19,8 @@ class Mesh
   void ribbon(const Polyline& line, double width, double z);
   /// A rectangle between two corners.
   void sheet(const Point2D& low, const Point2D& high, double z);
-  /// The ellipse that holds 95% of a Gaussian: pale, with a rim of this width [m].
-  void ellipse(const Gaussian<Point2D>& g, double rim, double z);
+  /// The ellipse that holds 95% of a Gaussian: pale, with a rim of this width [m]; or the rim only.
+  void ellipse(const Gaussian<Point2D>& g, double rim, double z, bool filled = true);
   /// What stands on a convex or star-shaped outline about `centre`, from z0 to z1.
   void prism(const Point2D& centre, const Polyline& outline, double z0, double z1);
   void post(const Point2D& centre, double radius, double z0, double z1);

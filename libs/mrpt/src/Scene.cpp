@@ -31,6 +31,12 @@ const std::array<Colour, 5> kTargets{Colour(0xd5, 0x5e, 0x00), Colour(0xb0, 0x57
                                      Colour(0xe6, 0x9f, 0x00), Colour(0x56, 0xb4, 0xe9),
                                      Colour(0x00, 0x9e, 0x73)};
 
+Colour darkened(const Colour& c)
+{
+  const auto part = [](std::uint8_t v) { return static_cast<std::uint8_t>(v / 2); };
+  return {part(c.R), part(c.G), part(c.B)};
+}
+
 /// Heights [in the frame's unit]: far enough apart for a depth buffer whose clip planes a file
 /// can't tell.
 enum Layer
@@ -56,7 +62,9 @@ class SceneBuilder
     addTrack(data_.robot, kRobot);
     for (std::size_t i = 0; i < data_.targets.size(); ++i)
       addTrack(data_.targets[i], kTargets[i % kTargets.size()]);
-    addTruth();
+    addTruth(data_.robot, kTruth);
+    for (std::size_t i = 0; i < data_.targets.size(); ++i)
+      addTruth(data_.targets[i], darkened(kTargets[i % kTargets.size()]));
     addParticles();
     scene_.getViewport()->setCustomBackgroundColor({1.0f, 1.0f, 1.0f});
     addLegend();
@@ -158,26 +166,28 @@ class SceneBuilder
     if (!track.now) return;
     const Gaussian<Pose2D>& now = *track.now;
     const Point2D place{now.mean.x, now.mean.y};
-    Mesh ellipse(colour);
-    ellipse.ellipse({place, now.cov.topLeftCorner<2, 2>()}, 0.15 * u(), z(kEllipseLayer));
-    scene_.insert(ellipse.object(track.name + " ellipse"));
+    addEllipse(track.name + " ellipse", {place, now.cov.topLeftCorner<2, 2>()}, colour);
     Mesh body(colour);
     body.prism(place, dart(now.mean, 3.5 * u()), z(kBodyLayer), z(kBodyLayer) + 1.5 * u());
     scene_.insert(body.object(track.name));
   }
 
-  void addTruth()
+  /// Where a track is at the end; one that may be almost anywhere must not hide the map.
+  void addEllipse(const std::string& name, const Gaussian<Point2D>& g, const Colour& colour)
   {
-    Mesh lines(kTruth);
-    bool any = false;
-    const auto add = [&](const SceneTrack& track)
-    {
-      for (const Polyline& piece : track.truth) lines.ribbon(piece, 0.18 * u(), z(kTruthLayer));
-      any = any || !track.truth.empty();
-    };
-    add(data_.robot);
-    for (const SceneTrack& track : data_.targets) add(track);
-    if (any) scene_.insert(lines.object("true paths"));
+    const double size = std::sqrt(g.cov.trace());
+    if (size > 20 * u()) return;
+    Mesh ellipse(colour);
+    ellipse.ellipse(g, 0.15 * u(), z(kEllipseLayer), size < 4 * u());
+    scene_.insert(ellipse.object(name));
+  }
+
+  void addTruth(const SceneTrack& track, const Colour& colour)
+  {
+    if (track.truth.empty()) return;
+    Mesh lines(colour);
+    for (const Polyline& piece : track.truth) lines.ribbon(piece, 0.18 * u(), z(kTruthLayer));
+    scene_.insert(lines.object(track.name + " truth"));
   }
 
   void addParticles()

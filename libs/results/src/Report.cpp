@@ -57,7 +57,7 @@ void addPlots(HtmlPage& page, const RunView& run)
   page.heading("Map and paths");
   page.figure(
       "The map frame from above, one metre as long on both axes. Arrow heads mark the last "
-      "poses.",
+      "poses; dashed lines are true paths.",
       mapFigure(run));
   const auto nees = neesFigure(run);
   if (nees) page.heading("Errors");

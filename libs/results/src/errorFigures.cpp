@@ -63,7 +63,7 @@ Range errorRange(const std::vector<double>& error, const std::vector<double>& bo
     if (std::isfinite(e)) limit = std::max(limit, std::abs(e));
   for (const double b : bound)
     if (std::isfinite(b)) finite.push_back(b);
-  if (!finite.empty()) limit = std::max(limit, math::quantile(finite, 0.8));
+  if (!finite.empty()) limit = std::max(limit, 1.5 * math::quantile(finite, 0.5));
   limit = std::min(limit, most);
   return limit > 0 ? Range{-1.1 * limit, 1.1 * limit} : Range{-1, 1};
 }

@@ -59,7 +59,7 @@ Range rangeOf(const Plot& plot, bool ofX)
 int equalise(PanelLayout& p, int width)
 {
   const double lx = p.x.max - p.x.min, ly = p.y.max - p.y.min;
-  const double aspect = std::clamp(ly / lx, 0.35, 0.95);
+  const double aspect = std::clamp(ly / lx, 0.35, 1.2);
   const auto grow = [](Range& r, double length)
   {
     const double centre = (r.min + r.max) / 2;

@@ -26,7 +26,7 @@ void breakLine(Series& s)
 /// Long paths cross themselves often: thin lines leave something to see.
 Kind lineKind(std::size_t points)
 {
-  return points > 5000 ? Kind::kThin : Kind::kLine;
+  return points > 20000 ? Kind::kThin : Kind::kLine;
 }
 
 /// Truth moved into the map's frame.
@@ -67,9 +67,9 @@ void addLandmarks(Plot& plot, const RunView& run, const TruthMover& mover)
   plot.series.insert(plot.series.end(), {ellipses, centres, truth});
 }
 
-Series pathOf(const eval::TargetTrack& track)
+Series pathOf(const eval::TargetTrack& track, Kind kind)
 {
-  Series path{lineKind(track.rows.size()), nameOf(track), Ink::kVermillion, {}, {}, {}, {}};
+  Series path{kind, nameOf(track), Ink::kVermillion, {}, {}, {}, {}};
   for (std::size_t i = 0; i < track.rows.size(); ++i)
   {
     if (i > 0 && track.rows[i].row != track.rows[i - 1].row + 1) breakLine(path);
@@ -84,7 +84,7 @@ void addTargets(Plot& plot, const RunView& run, double arrow)
   for (std::size_t i = 0; i < targets.size(); ++i)
   {
     if (targets[i].rows.empty()) continue;
-    Series path = pathOf(targets[i]);
+    Series path = pathOf(targets[i], lineKind(run.record.rows.size()));
     path.ink = inkOf(i);
     if (targets.size() > kNamedTargets) path.title = i == 0 ? "targets" : "";
     plot.series.push_back(path);
@@ -95,12 +95,26 @@ void addTargets(Plot& plot, const RunView& run, double arrow)
   }
 }
 
+/// The colour of the first track that stands for a true target.
+Ink inkOfTruth(const eval::Evaluation& evaluation, int truthId)
+{
+  for (std::size_t i = 0; i < evaluation.targets.size(); ++i)
+    if (evaluation.targets[i].truthId == truthId) return inkOf(i);
+  return Ink::kMuted;
+}
+
 void addTruePaths(Plot& plot, const RunView& run, const TruthMover& mover)
 {
-  Series paths{Kind::kDashes, "true paths", Ink::kText, {}, {}, {}, {}};
-  if (!run.truth.robot.empty()) mover.append(paths, run.truth.robot);
-  for (const auto& [id, trajectory] : run.truth.targets) mover.append(paths, trajectory);
-  plot.series.push_back(paths);
+  for (const auto& [id, trajectory] : run.truth.targets)
+  {
+    Series path{Kind::kDashes, "", inkOfTruth(run.evaluation, id), {}, {}, {}, {}};
+    mover.append(path, trajectory);
+    plot.series.push_back(path);
+  }
+  if (run.truth.robot.empty()) return;
+  Series path{Kind::kDashes, "true paths", Ink::kText, {}, {}, {}, {}};
+  mover.append(path, run.truth.robot);
+  plot.series.push_back(path);
 }
 
 /// Size of what is mapped, for marks that should neither vanish nor hide the rest [m].
