@@ -1,3 +1,4 @@
+#include "saveWhole.h"
 #include "toObservations.h"
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -6,12 +7,10 @@
 #include <mrpt/poses/CPose3D.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
-#include <slamot/core/Error.h>
 #include <slamot/mrpt/LaserMaps.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace slamot::mrpt
 {
@@ -65,22 +64,6 @@ Box boxOf(const std::vector<PosedScans>& all)
       addReturns(box, math::compose(s.robot.mean, scan->pose_robot_sensor), *scan);
   }
   return {box.xMin - kMargin, box.xMax + kMargin, box.yMin - kMargin, box.yMax + kMargin};
-}
-
-// Through a temporary, so that the file is there whole or not at all.
-template <class Save>
-void saveWhole(const std::string& path, const Save& save)
-{
-  const std::filesystem::path p(path);
-  // The picture's format goes by the name's end.
-  const std::string temporary = (p.parent_path() / ("partial." + p.filename().string())).string();
-  std::error_code error;
-  if (save(temporary)) std::filesystem::rename(temporary, path, error);
-  const bool done = !error && std::filesystem::exists(path);
-  std::filesystem::remove(temporary, error);
-  if (!done)
-    throw core::Error(core::ExitStatus::kUnreadable, path, "can't be written",
-                      "check the folder and its space");
 }
 }  // namespace
 
