@@ -25,6 +25,8 @@ namespace slamot_viz = ::mrpt::viz;
   {                                                     \
     return member;                                      \
   }
+/// Who owns what a metric map's definition makes.
+#define SLAMOT_METRIC_MAP_POINTER ::mrpt::maps::CMetricMap::Ptr
 /// What an off-screen renderer draws from; arguments: CFBORender, MrptScene, CCamera.
 #define SLAMOT_SET_CAMERA(renderer, scene, camera) (renderer).setCamera(camera)
 #else
@@ -39,6 +41,7 @@ namespace slamot::mrpt
 using MrptScene = ::mrpt::opengl::COpenGLScene;
 }
 #define SLAMOT_SET_CAMERA(renderer, scene, camera) (renderer).setCamera(scene, camera)
+#define SLAMOT_METRIC_MAP_POINTER ::mrpt::maps::CMetricMap*
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/Visualizable.h>
 namespace slamot_viz = ::mrpt::opengl;
