@@ -168,6 +168,10 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
   if (step.blobs)
     for (const core::Blob& b : step.blobs->blobs) blobRays_.rays.push_back(settings_.ray(b));
 
+  targetNoise_.clear();
+  for (const Track& t : tracks_.list())
+    targetNoise_.push_back(settings_.noiseAfter(step.time - t.lastSeen));
+
   workers_.forEach(particles_.size(), [&](std::size_t i, int lane) { updateParticle(i, lane); });
   if (scan_.size() > 0 || blobRays_.rays.size() > 0) pending_ = {};
 
@@ -225,7 +229,8 @@ double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate&
     const double logNew = -0.5 * settings_.gates.outer - 0.5 * std::log(ray.varRange * ray.varBearing);
     Innovation o;
     const auto t = static_cast<std::size_t>(blobs[k]);
-    if (blobs[k] < 0 || !tracks_.list()[t].confirmed || !innovateTarget(eye, ray, p.targets[t], o))
+    if (blobs[k] < 0 || !tracks_.list()[t].confirmed ||
+        !innovateTarget(eye, ray, p.targets[t], o, nullptr, targetNoise_[t]))
     {
       sum += blobs[k] == kNew || blobs[k] == kRejected ? logNew : 0.0;
       continue;

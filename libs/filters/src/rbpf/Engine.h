@@ -94,6 +94,7 @@ class EngineOf : public RbpfSlamot::Engine
   std::vector<double> weights_;    // normalised, after the scan
   std::vector<Outcome> outcomes_;
   std::vector<Scratch> scratch_;
+  std::vector<double> targetNoise_;  // of each track, where its sightings shape the poses
   std::vector<int> blobIds_;       // the target that the scan's blobs are of, on the whole
   std::uint64_t resamplings_ = 0;
   std::size_t best_ = 0;

@@ -81,16 +81,10 @@ void LandmarkScan::begin(const core::LandmarkScan* scan, double time, const std:
 void LandmarkScan::setNoise()
 {
   if (settings_.correlationTime <= 0) return;
-  // Sightings that share their error within a time tell no more than one would: each is given the
-  // noise that makes the information of that time's sightings that of one.
-  constexpr double kMostNoise = 1000;
   lastSeen_.resize(index_.capacity(), -1e300);
   noise_.resize(index_.capacity());
   for (std::size_t slot = 0; slot < noise_.size(); ++slot)
-  {
-    const double pause = time_ - lastSeen_[slot];
-    noise_[slot] = std::clamp(settings_.correlationTime / std::max(pause, 1e-9), 1.0, kMostNoise);
-  }
+    noise_[slot] = settings_.noiseAfter(time_ - lastSeen_[slot]);
   for (const std::uint32_t slot : newSlots_)
     if (!settings_.knownIds) lastSeen_[slot] = -1e300;  // the slot's last landmark is another's
 }

@@ -2,6 +2,8 @@
 
 #include <slamot/math/statistics.h>
 
+#include <algorithm>
+
 namespace slamot::filters::rbpf
 {
 Gates Gates::from(core::Params& p)
@@ -44,6 +46,12 @@ Settings Settings::from(core::Params& p)
   s.resampling.adaptiveSampleSize = false;
   s.resampling.sampleSize = static_cast<unsigned>(s.particles);
   return s;
+}
+
+double Settings::noiseAfter(double pause) const
+{
+  constexpr double kMost = 1000;
+  return std::clamp(correlationTime / std::max(pause, 1e-9), 1.0, kMost);
 }
 
 Ray Settings::ray(const core::Sighting& s) const

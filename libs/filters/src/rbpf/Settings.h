@@ -27,12 +27,16 @@ struct Settings : TargetSettings
   double newDensity;       ///< p_new [1/(m rad)]; 0: that of a pair at the inner gate's edge
   double rangeStd;         ///< [m]; 0: what the log says
   double bearingStd;       ///< [rad]; 0: what the log says
-  double correlationTime;  ///< [s] over which a landmark's sightings share their error; 0: none do
+  double correlationTime;  ///< [s] over which sightings of one thing share their error; 0: none do
   int confirmSightings;    ///< landmarks seen less often are not reported
   double detection;        ///< chance to see a landmark in view; 0: misses tell nothing
   ::mrpt::bayes::CParticleFilter::TParticleFilterOptions resampling;
 
   static Settings from(core::Params& p);
+  /// What multiplies the variances of a thing's sighting this long [s] after its last one: sightings
+  /// that share their error within a time tell no more, all together, than one would.
+  [[nodiscard]] double noiseAfter(double pause) const;
+
   using TargetSettings::ray;
   [[nodiscard]] Ray ray(const core::Sighting& s) const;
 };

@@ -25,12 +25,13 @@ struct BlobRays
   std::vector<Ray> rays;
 };
 
-/// Innovation of a blob of a target; the pose's own covariance, if given, adds to S.
+/// Innovation of a blob of a target; the pose's own covariance, if given, adds to S; `noise`
+/// multiplies the sighting's variances.
 template <class State>
 bool innovateTarget(const Eye& eye, const Ray& ray, const State& t, Innovation& o,
-                    const Matrix3* poseCov = nullptr)
+                    const Matrix3* poseCov = nullptr, double noise = 1)
 {
-  if (!innovate(eye, ray, t.x[0], t.x[1], t.P(0, 0), t.P(0, 1), t.P(1, 1), o)) return false;
+  if (!innovate(eye, ray, t.x[0], t.x[1], t.P(0, 0), t.P(0, 1), t.P(1, 1), o, noise)) return false;
   if (poseCov) o = withPose(o, *poseCov);
   return true;
 }
