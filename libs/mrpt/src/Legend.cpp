@@ -41,7 +41,7 @@ Viewport& addOverlay(MrptScene& scene, const std::string& name, const Overlay& o
   const double shown = o.top - o.bottom, across = shown * o.width / o.height * 4 / 3;
   auto camera = slamot_viz::CCamera::Create();
   camera->setPointingAt(o.left + across / 2, (o.top + o.bottom) / 2, 0);
-  camera->setZoomDistance(static_cast<float>(kOrthogonalZoom * std::min(shown, across)));
+  camera->setZoomDistance(static_cast<float>(kOrthogonalZoom * shown));
   camera->setAzimuthDegrees(-90);
   camera->setElevationDegrees(90);
   camera->setProjectiveModel(false);
@@ -97,15 +97,16 @@ void Legend::cross(const std::string& text, const ::mrpt::img::TColor& colour)
 void Legend::finish()
 {
   const double rows = static_cast<double>(entries_.size());
-  Viewport& lines =
-      addOverlay(scene_, "legend",
-                 {1 - kLegendPart, kLegendPart, kRow * (rows + 1), -0.3, -0.25, -rows - 1.25});
+  Viewport& lines = addOverlay(
+      scene_, "legend",
+      {1 - kLegendPart, kLegendPart, kRow * (rows + 1), kOverlayLeft, -0.25, -rows - 1.25});
   for (std::size_t i = 0; i < entries_.size(); ++i)
   {
     lines.insert(entries_[i].mark.object("legend: " + entries_[i].text));
     lines.insert(textAt(entries_[i].text, 1.6, -static_cast<double>(i + 1)));
   }
-  Viewport& head = addOverlay(scene_, "title", {0, 1 - kLegendPart, kTitlePart, -0.3, 0.6, -0.6});
+  Viewport& head =
+      addOverlay(scene_, "title", {0, 1 - kLegendPart, kTitlePart, kOverlayLeft, 0.6, -0.6});
   head.insert(textAt(title_, 0, 0));
 }
 }  // namespace slamot::mrpt

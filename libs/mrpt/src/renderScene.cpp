@@ -11,6 +11,7 @@
 #include "view.h"
 
 #include SLAMOT_SCENE_HEADER
+#include SLAMOT_VIZ(CText3D.h)
 
 namespace slamot::mrpt
 {
@@ -76,17 +77,36 @@ CImage draw(Viewport& view, const slamot_viz::CCamera& camera, const Size& size)
   return picture;
 }
 
+/// Where the longest text of a viewport ends; MRPT's bounding boxes of texts are too small.
+double textsEnd(Viewport& view)
+{
+  constexpr double kLetter = 0.4;
+  double end = 0;
+  for (const auto& object : view)
+    if (const auto text = std::dynamic_pointer_cast<slamot_viz::CText3D>(object))
+      end = std::max(end,
+                     text->getPose().x + kLetter * static_cast<double>(text->getString().size()));
+  return end;
+}
+
 /// Puts an overlay, such as the legend, to its place.
 void drawOverlay(CImage& picture, Viewport& view, const Size& whole)
 {
-  const auto camera = view.getByClass<slamot_viz::CCamera>();
-  if (!camera) return;
+  const auto saved = view.getByClass<slamot_viz::CCamera>();
+  if (!saved) return;
   double x, y, width, height;
   view.getViewportPosition(x, y, width, height);
   const auto pixels = [](double part, int of) { return static_cast<int>(std::lround(part * of)); };
   const Size size{pixels(width, whole.width), pixels(height, whole.height)};
+  // The saved camera suits most windows; this one is made for this picture's proportions.
+  const double aspect = static_cast<double>(size.width) / size.height;
+  const double across = textsEnd(view) - kOverlayLeft;
+  const double shown = std::max(saved->getZoomDistance() / kOrthogonalZoom, across / aspect);
+  slamot_viz::CCamera camera = *saved;
+  camera.setZoomDistance(static_cast<float>(kOrthogonalZoom * shown * std::min(1.0, aspect)));
+  camera.setPointingAt(kOverlayLeft + shown * aspect / 2, saved->getPointingAtY(), 0);
   picture.drawImage(pixels(x, whole.width), pixels(1 - y - height, whole.height),
-                    draw(view, *camera, size));
+                    draw(view, camera, size));
 }
 
 CImage drawAll(MrptScene& scene, const RenderOptions& options)

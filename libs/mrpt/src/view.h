@@ -8,6 +8,9 @@ inline constexpr double kOrthogonalZoom = 2;
 /// The part of a picture's width that the legend takes, and of its height that the title takes.
 inline constexpr double kLegendPart = 0.24, kTitlePart = 0.063;
 
+/// Where the left border of the legend's and the title's viewports is, in their own units.
+inline constexpr double kOverlayLeft = -0.3;
+
 struct Box
 {
   double xMin, xMax, yMin, yMax;  ///< [m], on the ground
