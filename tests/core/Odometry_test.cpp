@@ -7,8 +7,8 @@ namespace
 {
 OdometryModel model(const std::string& keys)
 {
-  Config c = Config::parse("[odometry]\n" + keys, "x.ini");
-  Params p(c, "odometry");
+  Config c = Config::parse("[odometer]\n" + keys, "x.ini");
+  Params p(c, "odometer");
   const OdometryModel m = OdometryModel::from(p);
   c.requireAllRead();
   return m;

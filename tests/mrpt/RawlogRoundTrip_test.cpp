@@ -189,7 +189,7 @@ TEST(RawlogRoundTrip, ObservationsWithoutCovarianceNeedAModel)
   catch (const core::Error& e)
   {
     EXPECT_EQ(e.status(), core::ExitStatus::kConfig);
-    EXPECT_NE(std::string(e.what()).find("[odometry] noise = model"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("[odometer] noise = model"), std::string::npos);
   }
 }
 }  // namespace

@@ -112,7 +112,7 @@ void addNotes(RawlogInfo& info, const LogFacts& facts)
   if (info.steps == 0) note("holds no odometry, landmark sighting, blob or laser scan");
   if (lacksCovariance(facts))
     note(
-        "odometry comes without covariance: set [odometry] noise = model, v_std_mps and "
+        "odometry comes without covariance: set [odometer] noise = model, v_std_mps and "
         "omega_std_deg_per_s");
   if (info.dropped > 0)
     note(format("%zu sightings are at range zero or below, or out of the field of view: dropped",

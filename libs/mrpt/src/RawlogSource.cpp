@@ -35,7 +35,7 @@ RawlogSource::SensorDeviations RawlogSource::SensorDeviations::from(core::Params
 
 RawlogSource::Options RawlogSource::Options::from(core::Config& config)
 {
-  core::Params odometryParams(config, "odometry"), sensorParams(config, "sensor");
+  core::Params odometryParams(config, "odometer"), sensorParams(config, "sensor");
   Options out;
   out.odometry = core::OdometryModel::from(odometryParams);
   out.sensor = SensorDeviations::from(sensorParams);
@@ -65,7 +65,7 @@ void RawlogSource::Impl::scan()
   if (lacksCovariance(facts) && options.odometry.fromLog)
     throw core::Error(core::ExitStatus::kConfig, path,
                       "its odometry (observations only) comes without covariance",
-                      "set [odometry] noise = model, v_std_mps and omega_std_deg_per_s");
+                      "set [odometer] noise = model, v_std_mps and omega_std_deg_per_s");
   starts = startsOf(facts, path);
 }
 

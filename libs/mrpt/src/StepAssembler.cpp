@@ -263,7 +263,7 @@ void StepAssembler::applyModel(core::Step& step)
   lastMotionTime_ = step.time;
   if (before_ == nullptr) return;
   if (!options_.odometry.fromLog && dt <= 0 && !isStill(step.odometry->mean))
-    current_.fail("the robot moves in no time, so [odometry] noise = model can't tell how surely",
+    current_.fail("the robot moves in no time, so [odometer] noise = model can't tell how surely",
                   "mend the log's times, or use the log's covariance: noise = log");
   step.odometry = options_.odometry.apply(*step.odometry, dt);
 }

@@ -6,7 +6,7 @@
 namespace slamot::core
 {
 /// How uncertain odometry is: as the log says, or by deviations of the robot's velocities, drawn
-/// anew each step.  Section [odometry].
+/// anew each step.  Section [odometer].
 struct OdometryModel
 {
   bool fromLog = true;

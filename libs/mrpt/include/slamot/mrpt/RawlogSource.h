@@ -38,7 +38,7 @@ class RawlogSource : public core::Source
     core::OdometryModel odometry;
     bool salvage = false;  ///< deliver the intact first part of a truncated log, then say so
     SensorDeviations sensor;
-    /// Sections [odometry] and [sensor].
+    /// Sections [odometer] and [sensor].
     static Options from(core::Config& config);
   };
 
