@@ -14,9 +14,9 @@ class BoundedInput
 {
  public:
   // Rawlogs shrink by 2 to 5, a single scan of a spinning laser by 33.
-  static constexpr std::uint64_t kMostUnpacked = 256u << 20;  ///< [byte], and ...
+  static constexpr std::uint64_t kMostUnpacked = 128u << 20;  ///< [byte], and ...
   static constexpr std::uint64_t kMostUnpackedRatio = 20;  ///< ... this many times the file's size
-  static constexpr double kMostSeconds = 8;                ///< of this thread's CPU, per 50 MB
+  static constexpr double kMostSeconds = 5;                ///< of this thread's CPU, per 50 MB
 
   /// \throws core::Error (kUnreadable): not a file that can be read, or empty.
   explicit BoundedInput(const std::string& path);

@@ -59,44 +59,12 @@ class SensorTable
   std::map<std::pair<std::string, std::string>, SensorInfo> sensors_;
 };
 
-void countEntries(RawlogInfo& info, const std::string& path)
-{
-  SensorTable table;
-  try
-  {
-    EntryReader reader(path);
-    while (const auto entry = reader.next())
-    {
-      info.packed = reader.packed();
-      ++info.entries;
-      if (entry->kind == Entry::Kind::kComment) continue;
-      for (const Entry::Part& part : entry->parts) table.add(part);
-    }
-  }
-  catch (const core::Error& e)
-  {
-    info.error = e;
-  }
-  info.sensors = table.list();
-}
-
 // With stand-ins for what a config would give, so that their want does not hide other faults.
 RawlogSource::Options lenient()
 {
   RawlogSource::Options options;
   options.odometry.fromLog = false;
   return options;
-}
-
-LogFacts countSteps(RawlogInfo& info, const std::string& path)
-{
-  const LogScan scan = scanLog(path, lenient());
-  info.hasFrames = scan.facts.hasFrames;
-  info.steps = scan.facts.steps;
-  info.dropped = scan.facts.dropped;
-  info.firstTime = scan.facts.firstTime, info.lastTime = scan.facts.lastTime;
-  info.starts = startsOf(scan.facts, path);
-  return scan.facts;
 }
 
 std::string format(const char* text, std::size_t n)
@@ -138,15 +106,26 @@ std::optional<double> SensorInfo::rate() const
 RawlogInfo inspectRawlog(const std::string& path)
 {
   RawlogInfo info;
+  SensorTable table;
+  const LogScan scan = scanLog(path, lenient(),
+                               [&](const Entry& entry)
+                               {
+                                 ++info.entries;
+                                 if (entry.kind != Entry::Kind::kComment)
+                                   for (const Entry::Part& part : entry.parts) table.add(part);
+                               });
   std::error_code none;
   if (std::filesystem::is_regular_file(path, none))
     info.bytes = std::filesystem::file_size(path, none);
-  countEntries(info, path);
-  // Beyond a fault there is nothing to count; a file cut short has steps up to there.
-  if (info.error && info.error->status() != core::ExitStatus::kTruncated) return info;
+  info.error = scan.error;
+  info.packed = scan.facts.packed, info.hasFrames = scan.facts.hasFrames;
+  info.steps = scan.facts.steps, info.dropped = scan.facts.dropped;
+  info.firstTime = scan.facts.firstTime, info.lastTime = scan.facts.lastTime;
+  info.sensors = table.list();
+  addNotes(info, scan.facts);
   try
   {
-    addNotes(info, countSteps(info, path));
+    info.starts = startsOf(scan.facts, path);
   }
   catch (const core::Error& e)
   {

@@ -12,7 +12,7 @@ struct RawlogSource::Impl
   Impl(const std::string& p, const Options& o) : path(p), options(o) {}
 
   void scan();
-  [[nodiscard]] std::string describe(const core::Error& truncation) const;
+  [[nodiscard]] std::string describe(const core::Error& error) const;
 
   std::string path;
   Options options;
@@ -55,10 +55,11 @@ std::string RawlogSource::Impl::describe(const core::Error& error) const
 void RawlogSource::Impl::scan()
 {
   const LogScan scan = scanLog(path, options);
-  if (scan.truncation && !options.salvage) throw *scan.truncation;
+  if (scan.error && (scan.error->status() != core::ExitStatus::kTruncated || !options.salvage))
+    throw *scan.error;
   facts = scan.facts;
-  if (scan.truncation) truncation = describe(*scan.truncation);
-  if (facts.steps == 0 && !scan.truncation)
+  if (scan.error) truncation = describe(*scan.error);
+  if (facts.steps == 0 && !scan.error)
     throw core::Error(core::ExitStatus::kUnreadable, path,
                       "holds no odometry, landmark sighting, blob or laser scan",
                       "see what it holds with slamot info");

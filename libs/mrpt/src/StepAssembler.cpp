@@ -42,8 +42,8 @@ bool holdsSightings(const core::Step& s)
 }  // namespace
 
 StepAssembler::StepAssembler(const std::string& path, const RawlogSource::Options& options,
-                             const LogFacts* before)
-    : reader_(path), options_(options), before_(before)
+                             const LogFacts* before, std::function<void(const Entry&)> onEntry)
+    : reader_(path), options_(options), before_(before), onEntry_(std::move(onEntry))
 {
   if (before_ != nullptr) lastMotionTime_ = before_->restTime;
 }
@@ -58,6 +58,8 @@ const Entry* StepAssembler::peek()
       ended_ = true;
       break;
     }
+    facts_.packed = reader_.packed();
+    if (onEntry_) onEntry_(*entry_);
     const bool isComment = entry_->kind == Entry::Kind::kComment;
     if (isComment) facts_.comment = entry_->as<CObservationComment>()->text;  // MRPT keeps the last
     if (!isComment) ++facts_.entries;

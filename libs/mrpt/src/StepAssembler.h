@@ -4,7 +4,7 @@
 
 #include <slamot/mrpt/RawlogSource.h>
 
-#include <map>
+#include <functional>
 
 namespace mrpt::obs
 {
@@ -20,6 +20,7 @@ struct LogFacts
 {
   std::string comment;                 ///< its comment text
   std::size_t entries = 0, steps = 0;  ///< entries without comments
+  bool packed = false;                 ///< gz
   std::size_t dropped = 0;             ///< sightings and blobs
   bool hasFrames = false;              ///< of actions and frames; else observations only
   bool beginsWithFrame = false;
@@ -36,8 +37,9 @@ class StepAssembler
  public:
   /// \param before the facts of an earlier pass; null in the first, whose steps lack what needs
   /// them.
+  /// \param onEntry is shown every entry.
   StepAssembler(const std::string& path, const RawlogSource::Options& options,
-                const LogFacts* before);
+                const LogFacts* before, std::function<void(const Entry&)> onEntry = {});
 
   /// \throws core::Error on a damaged file, on values that make no sense, and on time going
   /// backwards.
@@ -65,6 +67,7 @@ class StepAssembler
   EntryReader reader_;
   RawlogSource::Options options_;
   const LogFacts* before_;
+  std::function<void(const Entry&)> onEntry_;
   LogFacts facts_;
   std::optional<Entry> entry_;  // looked at, not yet taken
   bool ended_ = false;

@@ -7,7 +7,6 @@
 #include <mrpt/rtti/CObject.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace slamot::mrpt
 {
@@ -18,7 +17,7 @@ constexpr std::size_t kShortestName = 3, kLongestName = 120;  // MRPT's own limi
 
 bool isNameByte(unsigned char c)
 {
-  return std::isalnum(c) != 0 || c == '_' || c == ':';
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= ':') || c == '_';
 }
 
 // Behind the next end flag; false if there is none.

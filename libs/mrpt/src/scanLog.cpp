@@ -4,22 +4,23 @@
 
 namespace slamot::mrpt
 {
-LogScan scanLog(const std::string& path, const RawlogSource::Options& options)
+LogScan scanLog(const std::string& path, const RawlogSource::Options& options,
+                const std::function<void(const Entry&)>& onEntry)
 {
   LogScan out;
-  StepAssembler pass(path, options, nullptr);
+  std::optional<StepAssembler> pass;
   try
   {
-    while (pass.next())
+    pass.emplace(path, options, nullptr, onEntry);
+    while (pass->next())
     {
     }
   }
   catch (const core::Error& e)
   {
-    if (e.status() != core::ExitStatus::kTruncated) throw;
-    out.truncation = e;
+    out.error = e;
   }
-  out.facts = pass.facts();
+  if (pass) out.facts = pass->facts();
   return out;
 }
 

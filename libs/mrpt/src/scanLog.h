@@ -10,12 +10,13 @@ namespace slamot::mrpt
 /// A first pass over all of a rawlog.
 struct LogScan
 {
-  LogFacts facts;                         ///< of what could be read
-  std::optional<core::Error> truncation;  ///< why it ended early
+  LogFacts facts;                    ///< of what could be read
+  std::optional<core::Error> error;  ///< why there is no more
 };
 
-/// \throws core::Error, but for a log that ends early.
-[[nodiscard]] LogScan scanLog(const std::string& path, const RawlogSource::Options& options);
+/// \param onEntry is shown every entry.
+[[nodiscard]] LogScan scanLog(const std::string& path, const RawlogSource::Options& options,
+                              const std::function<void(const Entry&)>& onEntry = {});
 
 /// Whether the log gives increments but no covariance.
 [[nodiscard]] bool lacksCovariance(const LogFacts& facts);
