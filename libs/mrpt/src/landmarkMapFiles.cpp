@@ -61,6 +61,15 @@ void write(Archive& out, const Landmark& m)
     out << v;
 }
 
+// MRPT's own reader of these flags puts any byte into a bool.
+bool readFlag(Archive& in)
+{
+  std::uint8_t byte = 0;
+  in >> byte;
+  if (byte > 1) throw std::runtime_error("CLandmarkGaussianMap: a flag that is neither 0 nor 1");
+  return byte == 1;
+}
+
 Landmark readLandmark(Archive& in)
 {
   Landmark m;
@@ -108,7 +117,10 @@ void CLandmarkGaussianMap::serializeTo(Archive& out) const
 {
   if (landmarks_.size() > kMostLandmarks)
     throw std::runtime_error("CLandmarkGaussianMap: too many landmarks to write");
-  out << genericMapParams;
+  const auto& g = genericMapParams;
+  for (const bool flag :
+       {g.enableSaveAs3DObject, g.enableObservationLikelihood, g.enableObservationInsertion})
+    out.WriteAs<std::uint8_t>(flag);
   out << insertionOptions.gateProbability << insertionOptions.rangeStd
       << insertionOptions.bearingStd;
   out.WriteAs<std::uint32_t>(landmarks_.size());
@@ -119,7 +131,10 @@ void CLandmarkGaussianMap::serializeFrom(Archive& in, std::uint8_t version)
 {
   if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   CLandmarkGaussianMap map;
-  in >> map.genericMapParams;
+  auto& g = map.genericMapParams;
+  for (bool* flag :
+       {&g.enableSaveAs3DObject, &g.enableObservationLikelihood, &g.enableObservationInsertion})
+    *flag = readFlag(in);
   Options& options = map.insertionOptions;
   in >> options.gateProbability >> options.rangeStd >> options.bearingStd;
   if (!(options.gateProbability > 0 && options.gateProbability < 1 && options.rangeStd > 0 &&
@@ -137,7 +152,7 @@ void CLandmarkGaussianMap::serializeFrom(Archive& in, std::uint8_t version)
       throw std::runtime_error("CLandmarkGaussianMap: ids out of order");
     map.set(m);
   }
-  genericMapParams = map.genericMapParams;
+  genericMapParams = g;
   insertionOptions = options;
   landmarks_ = std::move(map.landmarks_);
 }
