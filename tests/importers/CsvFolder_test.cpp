@@ -78,6 +78,19 @@ TEST(CsvFolder, ReportsWithinAStepCutIt)
   EXPECT_FALSE(steps[3].blobs->blobs.at(0).range);
 }
 
+TEST(CsvFolder, RowAtTheStartEndsNoStep)
+{
+  const TemporaryFolder folder;
+  folder.write("odometry.csv", kOdometryHeader + "0,2,0.4,0.1,0.2\n1,2,0.4,0.1,0.2\n");
+  EXPECT_EQ(importCsv(folder).size(), 1u);
+  folder.write(
+      "odometry.csv",
+      "t,dx,dy,dphi,std_x,std_y,std_phi\n0,0,0,0,0,0,0\n0.1,1,0,0,0,0,0\n0.2,0,0,0,0,0,0\n");
+  EXPECT_EQ(importCsv(folder).size(), 2u) << "at rest later on is a step";
+  folder.write("odometry.csv", "t,dx,dy,dphi,std_x,std_y,std_phi\n0,1,0,0,0,0,0\n");
+  EXPECT_EQ(importCsv(folder).at(0).odometry->mean.x, 1);
+}
+
 TEST(CsvFolder, EmptyScansAreKept)
 {
   const TemporaryFolder folder;

@@ -12,6 +12,12 @@ namespace
 namespace fs = std::filesystem;
 using core::ExitStatus;
 
+bool exists(const std::string& path)
+{
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
 /// The number in `<prefix><number><suffix>`; none if the text is not of that form.
 std::optional<int> numberIn(std::string_view s, std::string_view prefix, std::string_view suffix)
 {
@@ -88,7 +94,7 @@ core::FieldOfView readFov(const std::string& folder)
 {
   core::FieldOfView fov;
   const std::string path = folder + "/fov.csv";
-  if (!fs::exists(path)) return fov;
+  if (!exists(path)) return fov;
   TextTable table = TextTable::csv(path);
   table.matchHeader({{"range_min", "range_max", "bearing_min", "bearing_max"}});
   if (!table.next()) table.fail(ExitStatus::kUnreadable, "holds no row", "write one row");
@@ -106,7 +112,7 @@ core::Starts readStarts(const std::string& folder)
   core::Starts starts;
   starts.time = 0;
   const std::string path = folder + "/start.csv";
-  if (!fs::exists(path)) return starts;
+  if (!exists(path)) return starts;
   TextTable table = TextTable::csv(path);
   table.matchHeader({{"object", "x", "y", "theta", "vx", "vy", "ax", "ay", "std_x", "std_y",
                       "std_theta", "std_vx", "std_vy", "std_ax", "std_ay"}});
@@ -126,7 +132,12 @@ core::Starts readStarts(const std::string& folder)
 eval::Truth readTruth(const std::string& folder)
 {
   eval::Truth truth;
-  for (const auto& entry : fs::directory_iterator(folder))
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+  if (error)
+    throw core::Error(ExitStatus::kUnreadable, folder, "can't be listed: " + error.message(),
+                      "check its rights");
+  for (const auto& entry : entries)
   {
     const std::string path = entry.path().string(), name = entry.path().filename().string();
     if (name == "truth_robot.csv")

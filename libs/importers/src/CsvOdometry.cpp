@@ -46,8 +46,15 @@ HeldMotion CsvOdometry::rowMotion() const
   return HeldMotion::fromIncrement(increment);
 }
 
+bool CsvOdometry::atRest(const Gaussian<Pose2D>& motion) const
+{
+  return time_ == last_ && motion.mean == Pose2D() && motion.cov.isZero(0);
+}
+
 std::optional<OdometryStep> CsvOdometry::next()
 {
+  // A row at the start itself, before anything has moved, ends no step.
+  while (ahead_ && atRest(rowMotion().whole())) ahead_ = read();
   if (!ahead_) return std::nullopt;
   OdometryStep out{last_, time_, rowMotion()};
   last_ = time_;

@@ -25,6 +25,7 @@ class CsvOdometry
  private:
   bool read();
   [[nodiscard]] HeldMotion rowMotion() const;
+  [[nodiscard]] bool atRest(const Gaussian<Pose2D>& motion) const;
 
   TextTable table_;
   bool velocities_ = false;

@@ -34,8 +34,13 @@ class SensorRows
 /// What the sightings' rows tell of which landmark was seen, for the truth.
 using Associations = std::vector<eval::TrueAssociation>;
 
+/// Each opens one file; sightings with an id are noted in `associations`, which must live on.
+std::unique_ptr<SensorRows> sightingRows(const std::string& path, const core::FieldOfView& fov,
+                                         Associations& associations);
+std::unique_ptr<SensorRows> blobRows(const std::string& path, const core::FieldOfView& fov);
+std::unique_ptr<SensorRows> laserRows(const std::string& path);
+
 /// The rows of landmark_sightings.csv, blobs.csv and scans.csv, as far as the folder has them.
-/// Sightings with an id are noted in `associations`, which must live as long as the rows do.
 std::vector<std::unique_ptr<SensorRows>> openSensors(const std::string& folder,
                                                      const core::FieldOfView& fov,
                                                      Associations& associations);

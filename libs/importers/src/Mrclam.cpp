@@ -157,8 +157,8 @@ std::unique_ptr<Import> openMrclam(const std::string& folder, const MrclamOption
     throw core::Error(core::ExitStatus::kConfig, "--robot", "MRCLAM has robots 1 to 5",
                       "give --robot with one of them");
   if (std::hypot(options.rangeStd, options.rangeScaleStd) <= 0 || options.bearingStd <= 0)
-    throw core::Error(core::ExitStatus::kConfig, "--std-range, --std-bearing",
-                      "no sensor is exact", "give a deviation above zero");
+    throw core::Error(core::ExitStatus::kConfig, "--std-range, --std-bearing", "no sensor is exact",
+                      "give a deviation above zero");
   return std::make_unique<Mrclam>(folder, options);
 }
 }  // namespace slamot::importers
