@@ -163,7 +163,8 @@ void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Mat
     {
       const maps::Landmark* m = map.find(slot);
       Innovation o;
-      if (!m || !innovateLandmark(eye, j, slot, *m, o)) continue;
+      // With the sighting's whole noise: which landmark it is of does not get less sure by repetition.
+      if (!m || !innovate(eye, rays_[j], m->x, m->y, m->cxx, m->cxy, m->cyy, o)) continue;
       if (spread) o = withPose(o, poseCov);
       if (o.d2 <= settings_.gates.outer)
         candidates.push_back({o.d2 + std::log(o.det), static_cast<std::int32_t>(j),
