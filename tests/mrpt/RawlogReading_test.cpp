@@ -432,6 +432,42 @@ TEST(RawlogReading, VelocitiesDoNotCountTwiceWherePosesChange)
   EXPECT_EQ(steps[1].odometry->mean.x, 4);
 }
 
+TEST(RawlogReading, VelocitiesOfPairsToo)
+{
+  auto movement = odometry({});
+  movement.hasVelocities = true;
+  movement.velocityLocal = {1, 0, 0};
+  std::string bytes;
+  for (const double time : {1.0, 1.5, 2.5})
+  {
+    movement.timestamp = ::mrpt::Clock::fromDouble(time);
+    bytes += pairOf(movement);
+  }
+  const auto steps = readBytes(bytes);
+  ASSERT_EQ(steps.size(), 3u);
+  EXPECT_NEAR(steps[0].odometry->mean.x, 0.5, 1e-12);  // over the first period that is known
+  EXPECT_NEAR(steps[1].odometry->mean.x, 0.5, 1e-12);
+  EXPECT_NEAR(steps[2].odometry->mean.x, 1, 1e-12);
+}
+
+TEST(RawlogReading, FramesMayHoldTheOdometryPoses)
+{
+  const auto pose = [](double time, double x)
+  {
+    auto o = std::make_shared<CObservationOdometry>();
+    o->timestamp = ::mrpt::Clock::fromDouble(time);
+    o->odometry = CPose2D(x, 0, 0);
+    CSensoryFrame frame;
+    frame.insert(o);
+    return serialized(CActionCollection()) + serialized(frame);
+  };
+  const auto steps = readBytes(pose(1, 0) + pose(2, 3), model());
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_FALSE(steps[0].odometry);
+  EXPECT_EQ(steps[1].odometry->mean.x, 3);
+  EXPECT_THROW(readBytes(pose(1, 0) + pose(2, 3)), core::Error);  // no covariance, no model
+}
+
 TEST(RawlogReading, LogWithoutTimesIsStillRead)
 {
   auto movement = odometry({1, 0, 0});

@@ -65,7 +65,7 @@ void RawlogSource::Impl::scan()
                       "see what it holds with slamot info");
   if (lacksCovariance(facts) && options.odometry.fromLog)
     throw core::Error(core::ExitStatus::kConfig, path,
-                      "its odometry (observations only) comes without covariance",
+                      "its odometry (CObservationOdometry) comes without covariance",
                       "set [odometer] noise = model, v_std_mps and omega_std_deg_per_s");
   starts = startsOf(facts, path);
 }

@@ -27,6 +27,11 @@ bool isStill(const Pose2D& p)
   return p.x == 0 && p.y == 0 && p.phi == 0;
 }
 
+bool isMoving(const ::mrpt::math::TTwist2D& v)
+{
+  return v.vx != 0 || v.vy != 0 || v.omega != 0;
+}
+
 // A robot of constant velocity over dt; the midpoint's heading is exact to third order in dt.
 Pose2D integrate(const ::mrpt::math::TTwist2D& v, double dt)
 {
@@ -106,6 +111,7 @@ void StepAssembler::check(const core::Step& step) const
 std::optional<core::Step> StepAssembler::assemble()
 {
   const bool first = facts_.entries == 1;
+  velocity_.reset();
   take();
   if (current_.kind == Entry::Kind::kActions)
   {
@@ -120,8 +126,9 @@ std::optional<core::Step> StepAssembler::assemble()
     core::Step step;
     std::optional<double> time;
     addFrame(step, time);
-    if (!holdsSightings(step)) return std::nullopt;
+    if (!step.odometry && !holdsSightings(step)) return std::nullopt;
     setTime(step, time, false);
+    applyModel(step);
     return step;
   }
   return assembleGroup();
@@ -135,6 +142,7 @@ std::optional<core::Step> StepAssembler::assemblePair()
   {
     step.odometry = incrementOf(*movement, current_);
     actionTime = toSeconds(movement->timestamp);
+    if (movement->hasVelocities) setVelocity(movement->velocityLocal);
   }
   std::optional<double> time;
   const bool hasFrame = peek() != nullptr && entry_->kind == Entry::Kind::kFrame;
@@ -147,20 +155,22 @@ std::optional<core::Step> StepAssembler::assemblePair()
     return std::nullopt;
   const bool fromAction = !time;
   setTime(step, fromAction ? actionTime : time, fromAction);
-  if (facts_.steps == 0 && (!step.odometry || isStill(step.odometry->mean)))
-    facts_.restTime = step.time;
+  if (facts_.steps == 0 && isAtRest(step)) facts_.restTime = step.time;
   applyModel(step);
   return step;
 }
 
 void StepAssembler::addFrame(core::Step& step, std::optional<double>& time)
 {
+  const bool hasMovement = step.odometry.has_value();
   for (const Entry::Part& part : current_.parts)
   {
     const auto observation = std::dynamic_pointer_cast<const CObservation>(part.object);
     if (!observation) continue;
-    // Held by a frame, even odometry is what the action tells already.
-    addObservation(step, *observation, current_, options_.sensor);
+    // Beside a movement, odometry in a frame is the same again.
+    const bool isSame =
+        hasMovement && dynamic_cast<const CObservationOdometry*>(observation.get()) != nullptr;
+    if (!isSame) add(step, *observation);
     if (!time) time = toSeconds(observation->timestamp);
   }
 }
@@ -181,7 +191,7 @@ std::optional<core::Step> StepAssembler::assembleGroup()
   }
   const auto time = toSeconds(stamp);
   if (time) noteTime(*time);
-  if (first && time && (!step.odometry || isStill(step.odometry->mean))) facts_.restTime = time;
+  if (first && time && isAtRest(step)) facts_.restTime = time;
   if (!used || (!step.odometry && !holdsSightings(step))) return std::nullopt;
   setTime(step, time, false);
   applyModel(step);
@@ -200,28 +210,32 @@ bool StepAssembler::addOdometry(core::Step& step, const CObservationOdometry& od
   if (!odometryLabel_) odometryLabel_ = odometry.sensorLabel;
   if (*odometryLabel_ != odometry.sensorLabel) return false;
   const Pose2D pose = odometry.odometry.asTPose();
-  const auto& v = odometry.velocityLocal;
-  if (!std::isfinite(pose.x + pose.y + pose.phi) ||
-      (odometry.hasVelocities && !std::isfinite(v.vx + v.vy + v.omega)))
+  if (!std::isfinite(pose.x + pose.y + pose.phi))
     current_.fail("the odometry is not a number", "mend the log");
-  const auto time = toSeconds(odometry.timestamp);
+  if (odometry.hasVelocities) setVelocity(odometry.velocityLocal);
   if (odometryPose_)
   {
-    Pose2D increment = math::between(*odometryPose_, pose);
-    const bool velocitiesOnly =
-        before_ != nullptr && before_->odometryHasVelocities && !before_->odometryPoseMoves;
-    if (velocitiesOnly && odometry.hasVelocities && time && odometryTime_)
-      increment = integrate(v, std::max(0.0, *time - *odometryTime_));
-    facts_.odometryPoseMoves = facts_.odometryPoseMoves || pose != *odometryPose_;
+    facts_.odometryFromPoses = true;
     if (!step.odometry) step.odometry.emplace();
-    step.odometry->mean = math::compose(step.odometry->mean, increment);
+    step.odometry->mean = math::compose(step.odometry->mean, math::between(*odometryPose_, pose));
   }
-  facts_.odometryHasVelocities =
-      facts_.odometryHasVelocities ||
-      (odometry.hasVelocities && (v.vx != 0 || v.vy != 0 || v.omega != 0));
+  else if (const auto time = toSeconds(odometry.timestamp))
+    lastMotionTime_ = time;
   odometryPose_ = pose;
-  odometryTime_ = time;
   return true;
+}
+
+void StepAssembler::setVelocity(const ::mrpt::math::TTwist2D& v)
+{
+  if (!std::isfinite(v.vx + v.vy + v.omega))
+    current_.fail("the odometry's velocity is not a number", "mend the log");
+  velocity_ = v;
+}
+
+// Whether the step holds no motion: that at its time the robot was where it started.
+bool StepAssembler::isAtRest(const core::Step& step) const
+{
+  return !step.odometry || (isStill(step.odometry->mean) && !(velocity_ && isMoving(*velocity_)));
 }
 
 void StepAssembler::noteTime(double time)
@@ -260,12 +274,16 @@ void StepAssembler::setTime(core::Step& step, std::optional<double> time, bool f
 void StepAssembler::applyModel(core::Step& step)
 {
   if (!step.odometry) return;
+  facts_.moves = facts_.moves || !isStill(step.odometry->mean);
+  facts_.hasVelocities = facts_.hasVelocities || (velocity_ && isMoving(*velocity_));
   double dt = lastMotionTime_ ? step.time - *lastMotionTime_ : 0;
   if (dt <= 0 && !lastMotionTime_ && before_ != nullptr) dt = before_->firstPeriod;
   lastMotionTime_ = step.time;
   if (before_ == nullptr) return;
+  const bool velocitiesOnly = before_->hasVelocities && !before_->moves;
+  if (velocitiesOnly && velocity_) step.odometry->mean = integrate(*velocity_, dt);
   if (!options_.odometry.fromLog && dt <= 0 && !isStill(step.odometry->mean))
-    current_.fail("the robot moves in no time, so [odometer] noise = model can't tell how surely",
+    current_.fail("the robot moves in no time, so [odometry] noise = model can't tell how surely",
                   "mend the log's times, or use the log's covariance: noise = log");
   step.odometry = options_.odometry.apply(*step.odometry, dt);
 }

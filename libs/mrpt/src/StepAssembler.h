@@ -2,6 +2,7 @@
 
 #include "EntryReader.h"
 
+#include <mrpt/math/TTwist2D.h>
 #include <slamot/mrpt/RawlogSource.h>
 
 #include <functional>
@@ -27,8 +28,9 @@ struct LogFacts
   std::optional<double> firstTime, lastTime;  ///< the first and last that are valid [s]
   std::optional<double> restTime;             ///< of the first entry, if it holds no motion [s]
   double firstPeriod = 0;                     ///< between the first two times that differ [s]
-  bool odometryPoseMoves = false;      ///< some CObservationOdometry's pose differs from the first
-  bool odometryHasVelocities = false;  ///< some velocity is not zero
+  bool moves = false;                         ///< some increment is not zero
+  bool hasVelocities = false;                 ///< nor some velocity
+  bool odometryFromPoses = false;             ///< increments are differences: no covariance
 };
 
 /// Puts entries together to steps: one pass over a rawlog.
@@ -60,6 +62,8 @@ class StepAssembler
   void addFrame(core::Step& step, std::optional<double>& time);
   bool add(core::Step& step, const Observation& observation);
   bool addOdometry(core::Step& step, const ::mrpt::obs::CObservationOdometry& odometry);
+  void setVelocity(const ::mrpt::math::TTwist2D& v);
+  [[nodiscard]] bool isAtRest(const core::Step& step) const;
   void setTime(core::Step& step, std::optional<double> time, bool fromAction);
   void noteTime(double time);
   void applyModel(core::Step& step);
@@ -78,6 +82,6 @@ class StepAssembler
   std::optional<double> lastMotionTime_;
   std::optional<std::string> odometryLabel_;
   std::optional<Pose2D> odometryPose_;
-  std::optional<double> odometryTime_;
+  std::optional<::mrpt::math::TTwist2D> velocity_;  // of the step in hand
 };
 }  // namespace slamot::mrpt

@@ -26,7 +26,7 @@ LogScan scanLog(const std::string& path, const RawlogSource::Options& options,
 
 bool lacksCovariance(const LogFacts& facts)
 {
-  return !facts.hasFrames && (facts.odometryPoseMoves || facts.odometryHasVelocities);
+  return facts.odometryFromPoses && (facts.moves || facts.hasVelocities);
 }
 
 core::Starts startsOf(const LogFacts& facts, const std::string& path)

@@ -14,8 +14,9 @@ namespace slamot::mrpt
 /// without sightings.  Of a log that begins with a frame, as MRPT's simulator writes, the first
 /// frame and the last action belong to no pair and are left out, as by MRPT's own programs.
 /// Observations only: consecutive ones of one timestamp are a step; increments are differences of
-/// CObservationOdometry's poses, of the first odometry sensor in the log.  Where no pose of a log
-/// ever changes but velocities are given, those are integrated instead.
+/// CObservationOdometry's poses, of the first odometry sensor in the log.  Frames without a
+/// movement beside them may hold such poses too.  Where by its increments the robot never moves,
+/// but velocities are given, those are integrated instead.
 ///
 /// A step's time is that of the first observation that has one, else the action's, else that of the
 /// step before; in a log without any, steps are kPeriodWithoutTimes apart.
