@@ -283,7 +283,7 @@ void StepAssembler::applyModel(core::Step& step)
   const bool velocitiesOnly = before_->hasVelocities && !before_->moves;
   if (velocitiesOnly && velocity_) step.odometry->mean = integrate(*velocity_, dt);
   if (!options_.odometry.fromLog && dt <= 0 && !isStill(step.odometry->mean))
-    current_.fail("the robot moves in no time, so [odometry] noise = model can't tell how surely",
+    current_.fail("the robot moves in no time, so [odometer] noise = model can't tell how surely",
                   "mend the log's times, or use the log's covariance: noise = log");
   step.odometry = options_.odometry.apply(*step.odometry, dt);
 }
