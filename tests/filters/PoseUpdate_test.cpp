@@ -4,6 +4,8 @@
 #include <slamot/math/gaussian.h>
 #include <slamot/math/random.h>
 
+#include <Eigen/LU>
+
 namespace slamot::filters::rbpf
 {
 namespace
@@ -81,12 +83,11 @@ TEST(PoseUpdate, EqualsTheDenseJointGaussian)
     const Eigen::MatrixXd S = d.H * d.P * d.H.transpose() + d.R;
     const Eigen::MatrixXd K = d.P * d.H.transpose() * S.inverse();
     const Eigen::MatrixXd P = d.P - K * d.H * d.P;
-    const auto r = update.solve(P0);
+    const auto r = update.solve(math::squareRoot(P0));
     EXPECT_LE((r.shift - (K * d.nu).head<3>()).norm(), 1e-11);
-    EXPECT_LE((r.cov - P.topLeftCorner<3, 3>()).norm(), 1e-11 * (1e-3 + P0.norm()));
+    EXPECT_LE((r.root * r.root.transpose() - P.topLeftCorner<3, 3>()).norm(),
+              1e-11 * (1e-3 + P0.norm()));
     EXPECT_NEAR(r.logGain, logNormal(d.nu, S) - d.atPrior, 1e-8 * (1 + std::abs(d.atPrior)));
-    EXPECT_EQ(math::asymmetry(r.cov), 0);
-    EXPECT_GE(math::smallestEigenvalue(r.cov), -1e-15);
   }
 }
 
@@ -94,9 +95,9 @@ TEST(PoseUpdate, WithoutSightingsKeepsThePrior)
 {
   RandomStream random{2};
   const Matrix3 P0 = drawPrior(random, 3);
-  const auto r = PoseUpdate().solve(P0);
+  const auto r = PoseUpdate().solve(math::squareRoot(P0));
   EXPECT_TRUE(r.shift.isZero());
-  EXPECT_TRUE(r.cov.isApprox(P0, 1e-14));
+  EXPECT_TRUE((r.root * r.root.transpose()).isApprox(P0, 1e-14));
   EXPECT_EQ(r.logGain, 0);
 }
 
@@ -107,7 +108,7 @@ TEST(PoseUpdate, OfAKnownPoseTellsNothing)
   (void)draw(random, 4, Matrix3::Zero(), update);
   const auto r = update.solve(Matrix3::Zero());
   EXPECT_TRUE(r.shift.isZero());
-  EXPECT_TRUE(r.cov.isZero());
+  EXPECT_TRUE(r.root.isZero());
   EXPECT_EQ(r.logGain, 0);
 }
 }  // namespace slamot::filters::rbpf

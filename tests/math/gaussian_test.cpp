@@ -126,9 +126,22 @@ TEST(SquareRoot, SquaresToTheMatrixAtEveryRank)
     }
 }
 
+// Noise drawn by it must not jump where rounding turns the axes of a circle.
+TEST(SquareRoot, IsSymmetricAndTurnsWithTheMatrix)
+{
+  const Matrix3 cov = Vector3(0.04, 0.04, 0.01).asDiagonal(), L = squareRoot(cov);
+  EXPECT_TRUE(L.isApprox(Matrix3(Vector3(0.2, 0.2, 0.1).asDiagonal()), 1e-14));
+  for (const double angle : {1e-17, 0.3, 2.0, -3.0})
+  {
+    const Matrix3 R = poseRotation(angle), turned = R * cov * R.transpose();
+    EXPECT_TRUE((R * L * R.transpose()).isApprox(squareRoot(turned), 1e-14));
+    EXPECT_LE(asymmetry(squareRoot(turned)), 1e-16);
+  }
+}
+
 TEST(SquareRoot, TakesRoundingBelowZeroForZero)
 {
-  const Matrix3 cov = Vector3(1, 1, -1e-12).asDiagonal();
+  const Matrix3 cov = Vector3(1, 1, -1e-9).asDiagonal();
   const Matrix3 L = squareRoot(cov);
   EXPECT_TRUE((L * L.transpose()).isApprox(Matrix3(Vector3(1, 1, 0).asDiagonal()), 1e-14));
 }

@@ -39,9 +39,10 @@ Matrix3 squareRoot(const Matrix3& cov)
   // Eigenvectors rather than Cholesky: a control with two noises makes a rank of two.
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(cov);
   const Vector3 d = eigen.eigenvalues();
-  if (d[0] < -1e-9 * std::max(d[2], 1e-300))
+  if (d[0] < -1e-8 * std::max(d[2], 1e-300))
     throw std::domain_error("covariance has a negative eigenvalue");
-  return eigen.eigenvectors() * d.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Matrix3& V = eigen.eigenvectors();
+  return V * d.cwiseMax(0.0).cwiseSqrt().asDiagonal() * V.transpose();
 }
 
 double asymmetry(const Eigen::Ref<const Eigen::MatrixXd>& m)

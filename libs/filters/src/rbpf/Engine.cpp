@@ -61,7 +61,9 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
 {
   const auto n = static_cast<std::size_t>(settings_.particles);
   const Gaussian<Pose2D> robot = context.starts.robotPose();
-  const Matrix3 L = math::squareRoot(robot.cov);
+  // Drawn in the robot's own axes, so that another map frame gives the same particles, rotated.
+  const Matrix3 R = math::poseRotation(robot.mean.phi);
+  const Matrix3 bodyCov = R.transpose() * robot.cov * R, L = R * math::squareRoot(bodyCov);
   particles_.m_particles.resize(n);
   outcomes_.resize(n);
   priors_.resize(n);
@@ -84,11 +86,7 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
     }
     for (const Track& t : tracks_.list()) p.targets.push_back(motion_.start(context.starts.targets.at(t.id)));
   }
-  if (settings_.informed)
-  {
-    const Matrix3 R = math::poseRotation(-robot.mean.phi);
-    pending_.cov = R * robot.cov * R.transpose();
-  }
+  if (settings_.informed) pending_.cov = bodyCov;
   estimate_.landmarks = &bestMap_;
   diagnostics_.particles = settings_.particles;
   updateEstimate(time, false);
@@ -162,6 +160,7 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
 {
   for (std::size_t i = 0; i < particles_.size(); ++i)
     priors_[i] = settings_.informed ? math::compose(particles_[i].pose, pending_.mean) : particles_[i].pose;
+  if (settings_.informed) pendingRoot_ = math::squareRoot(pending_.cov);
   scan_.begin(step.landmarks ? &*step.landmarks : nullptr, step.time, priors_, pending_);
   blobRays_.rays.clear();
   blobRays_.blobs = step.blobs ? &step.blobs->blobs : nullptr;
@@ -191,10 +190,11 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
   const Eye prior(priors_[i]);
   out.mean = {prior.x, prior.y, prior.phi};
   out.cov.setZero();
+  Matrix3 root = Matrix3::Zero();
   if (settings_.informed)
   {
-    const Matrix3 R = math::poseRotation(p.pose.phi);
-    out.cov = R * pending_.cov * R.transpose();
+    root = math::poseRotation(p.pose.phi) * pendingRoot_;
+    out.cov = root * root.transpose();
   }
   const Matrix3* poseCov = settings_.informed ? &out.cov : nullptr;
   scan_.match(p.map, prior, out.cov, lane, scratch.candidates, out.landmarks);
@@ -205,7 +205,7 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
                             settings_.informed ? &update : nullptr);
   gain += weighTargets(i, prior, update);
   const bool sampled = settings_.informed && scan_.size() + blobRays_.rays.size() > 0;
-  if (sampled) samplePose(i, update, gain);
+  if (sampled) samplePose(i, root, update, gain);
   particles_.logWeight(i) += gain;
 
   const Eye eye = sampled ? Eye(p.pose) : prior;
@@ -242,15 +242,16 @@ double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate&
 }
 
 template <class Motion>
-void EngineOf<Motion>::samplePose(std::size_t i, const PoseUpdate& update, double& logWeight)
+void EngineOf<Motion>::samplePose(std::size_t i, const Matrix3& root, const PoseUpdate& update,
+                                  double& logWeight)
 {
   Outcome& out = outcomes_[i];
-  const PoseUpdate::Result r = update.solve(out.cov);
+  const PoseUpdate::Result r = update.solve(root);
   out.mean += r.shift;
-  out.cov = r.cov;
+  out.cov = r.root * r.root.transpose();
   logWeight += r.logGain;
   math::RandomStream random{seed_, kSampleStream, stepNumber_, i};
-  const Vector3 x = out.mean + math::squareRoot(r.cov) * random.normal3();
+  const Vector3 x = out.mean + r.root * random.normal3();
   particles_[i].pose = {x[0], x[1], math::wrapToPi(x[2])};
 }
 

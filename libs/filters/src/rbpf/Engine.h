@@ -70,7 +70,7 @@ class EngineOf : public RbpfSlamot::Engine
   void takeScan(const core::Step& step);
   void updateParticle(std::size_t i, int lane);
   double weighTargets(std::size_t i, const Eye& eye, PoseUpdate& update);
-  void samplePose(std::size_t i, const PoseUpdate& update, double& logWeight);
+  void samplePose(std::size_t i, const Matrix3& root, const PoseUpdate& update, double& logWeight);
   void settleTracks(double time);
   std::vector<double> voteShares(std::size_t blob, std::size_t known) const;
   void dropLostTracks(double time);
@@ -90,6 +90,7 @@ class EngineOf : public RbpfSlamot::Engine
   LandmarkScan scan_;
   BlobRays blobRays_;
   Gaussian<Pose2D> pending_;       // informed: motion since the poses were last sampled
+  Matrix3 pendingRoot_;            // a square root of its covariance, for the scan
   std::vector<Pose2D> priors_;     // each particle's pose before the scan
   std::vector<double> weights_;    // normalised, after the scan
   std::vector<Outcome> outcomes_;

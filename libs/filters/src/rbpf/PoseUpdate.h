@@ -2,14 +2,14 @@
 
 #include "Sighting.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 namespace slamot::filters::rbpf
 {
 /// Collects what a scan says of a pose with prior N(x0, P0), all sightings linearised at x0, and
 /// gives the posterior and the scan's marginal likelihood: the proposal of FastSLAM 2.0
 /// (Montemerlo et al. 2003, eq. (15)-(20)) for a whole scan at once, the targets' sightings included.
-/// P0 may be singular (a control with two noises): only P0 itself enters, not its inverse.
+/// P0 may be singular (a control with two noises): only a square root of it enters, never its inverse.
 class PoseUpdate
 {
  public:
@@ -29,18 +29,21 @@ class PoseUpdate
 
   struct Result
   {
-    Vector3 shift;   ///< of the mean, from x0
-    Matrix3 cov;
+    Vector3 shift;  ///< of the mean, from x0
+    Matrix3 root;   ///< a square root L of the covariance L Lᵀ
     double logGain;  ///< log of the marginal over the likelihood at x0: ½ (bᵀ P b - ln|I + P0 A|)
   };
-  [[nodiscard]] Result solve(const Matrix3& P0) const
+  /// \param root a square root of the prior: P0 = root rootᵀ.
+  [[nodiscard]] Result solve(const Matrix3& root) const
   {
-    const Matrix3 M = Matrix3::Identity() + P0 * information_;
+    // (P0⁻¹ + A)⁻¹ = L (I + Lᵀ A L)⁻¹ Lᵀ: symmetric and positive, however much A outweighs P0.
+    const Matrix3 M = Matrix3::Identity() + root.transpose() * information_ * root;
+    const Eigen::LLT<Matrix3> llt(M);
     Result out;
-    const Matrix3 P = M.inverse() * P0;
-    out.cov = 0.5 * (P + P.transpose());
-    out.shift = out.cov * vector_;
-    out.logGain = 0.5 * (vector_.dot(out.shift) - std::log(M.determinant()));
+    out.root = llt.matrixL().solve(root.transpose()).transpose();
+    out.shift = out.root * (out.root.transpose() * vector_);
+    const Vector3 diagonal = llt.matrixLLT().diagonal();
+    out.logGain = 0.5 * vector_.dot(out.shift) - std::log(diagonal.prod());
     return out;
   }
 

@@ -33,8 +33,9 @@ namespace slamot::math
 [[nodiscard]] Gaussian<Pose2D> turnThenMove(double v, double omega, double dt, double stdV,
                                             double stdOmega);
 
-/// A square root L, L Lᵀ = cov, of a symmetric positive semidefinite 3x3 matrix, also singular.
-/// \throws std::domain_error if cov is not finite or has an eigenvalue below -1e-9 of its largest.
+/// The symmetric square root L, L Lᵀ = cov, of a symmetric positive semidefinite 3x3 matrix, also
+/// singular.  It follows small changes of cov by small changes, also where eigenvalues are equal.
+/// \throws std::domain_error if cov is not finite or has an eigenvalue below -1e-8 of its largest.
 [[nodiscard]] Matrix3 squareRoot(const Matrix3& cov);
 
 /// Largest difference between a matrix and its transpose.

@@ -4,6 +4,7 @@
 #include <slamot/core/Start.h>
 
 #include <Eigen/LU>
+#include <Eigen/LU>
 #include <variant>
 
 namespace slamot::models
