@@ -215,8 +215,7 @@ void LandmarkScan::apply(maps::LandmarkMap& map, const Eye& eye, const std::vect
     if (matches[j] == kNew)
     {
       const Gaussian<Point2D> place = invert(eye, rays_[j]);
-      m = {place.mean.x, place.mean.y, place.cov(0, 0), place.cov(0, 1), place.cov(1, 1), 1,
-           static_cast<float>(hitLogOdds_)};
+      m = {place.mean.x, place.mean.y, place.cov(0, 0), place.cov(0, 1), place.cov(1, 1), 1, 0};
     }
     else if (innovations)
       correct(m, (*innovations)[j]);
