@@ -1,9 +1,11 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace slamot::filters::rbpf
@@ -13,7 +15,11 @@ namespace slamot::filters::rbpf
 class Workers
 {
  public:
-  explicit Workers(int threads) : threads_(threads), arena_(threads) {}
+  /// As many threads as asked for, but no more than there are cores: TBB would warn and not do it.
+  explicit Workers(int threads)
+      : threads_(std::max(1, std::min(threads, tbb::info::default_concurrency()))), arena_(threads_)
+  {
+  }
   [[nodiscard]] int lanes() const { return threads_; }
 
   template <class F>
