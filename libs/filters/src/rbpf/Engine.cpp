@@ -304,7 +304,7 @@ void EngineOf<Motion>::settleTracks(double time)
       tracks_.hit(winner, blob, time);
       blobIds_[k] = tracks_.list()[winner].id;
     }
-    else if (winner == known && blob.range)
+    else if (winner == known)
     {
       const Ray& ray = blobRays_.rays[k];
       tracks_.add(blob, time);
@@ -343,34 +343,21 @@ void EngineOf<Motion>::updateEstimate(double time, bool afterScan)
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) sum += weights_[i];
   const bool fromScan = afterScan && scan_.size() + blobRays_.rays.size() > 0;
-  Vector3 first = Vector3::Zero();
-  Matrix3 second = Matrix3::Zero();
-  Pose2D origin;
+  PoseMoments robot;
   for (std::size_t i = 0; i < n; ++i)
   {
     weights_[i] /= sum;
-    Pose2D mean;
-    Matrix3 cov;
     if (fromScan)
     {
       const Vector3& m = outcomes_[i].mean;
-      mean = {m[0], m[1], m[2]};
-      cov = outcomes_[i].cov;
+      robot.add(weights_[i], {m[0], m[1], m[2]}, outcomes_[i].cov);
+      continue;
     }
-    else
-    {
-      mean = math::compose(particles_[i].pose, pending_.mean);
-      const Matrix3 R = math::poseRotation(particles_[i].pose.phi);
-      cov = R * pending_.cov * R.transpose();
-    }
-    if (i == 0) origin = mean;
-    const Vector3 d(mean.x - origin.x, mean.y - origin.y, math::wrapToPi(mean.phi - origin.phi));
-    first += weights_[i] * d;
-    second += weights_[i] * (d * d.transpose() + cov);
+    const Matrix3 R = math::poseRotation(particles_[i].pose.phi);
+    robot.add(weights_[i], math::compose(particles_[i].pose, pending_.mean),
+              R * pending_.cov * R.transpose());
   }
-  estimate_.robot.mean = {origin.x + first[0], origin.y + first[1], math::wrapToPi(origin.phi + first[2])};
-  const Matrix3 cov = second - first * first.transpose();
-  estimate_.robot.cov = 0.5 * (cov + cov.transpose());
+  estimate_.robot = robot.gaussian();
 
   estimate_.targets.clear();
   for (std::size_t t = 0; t < tracks_.list().size(); ++t)

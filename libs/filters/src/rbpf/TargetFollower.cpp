@@ -69,7 +69,7 @@ class FollowerOf : public TargetFollower
       pairing.outcome = core::Pairing::Outcome::kKnown;
       pairing.id = tracks_.list()[t].id;
     }
-    else if (matches_[k] == kNew && blob.range)
+    else if (matches_[k] == kNew)
     {
       tracks_.add(blob, step.time);
       targets_.push_back(motion_.birth(invert(eye, ray)));

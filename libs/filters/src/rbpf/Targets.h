@@ -1,11 +1,14 @@
 #pragma once
 
 #include "Matching.h"
+#include "Moments.h"
 #include "Sighting.h"
 #include "Tracks.h"
 
 #include <slamot/core/Estimate.h>
 #include <slamot/models/TargetMotion.h>
+
+#include <algorithm>
 
 // What one pose (a particle's, or a filter's mean with covariance) makes of a scan's blobs.
 namespace slamot::filters::rbpf
@@ -36,6 +39,17 @@ bool innovateTarget(const Eye& eye, const Ray& ray, const State& t, Innovation& 
   return true;
 }
 
+/// Whether blob k may start a target: its place is known, and its identity was not seen before in
+/// this scan.
+inline bool mayStart(const BlobRays& scan, std::size_t k)
+{
+  if (!scan.rays[k].hasRange) return false;
+  const auto same = [&](const core::Blob& earlier)
+  { return earlier.id == (*scan.blobs)[k].id && earlier.label == (*scan.blobs)[k].label; };
+  const auto begin = scan.blobs->begin(), end = begin + static_cast<std::ptrdiff_t>(k);
+  return (*scan.blobs)[k].id == core::kNoId || std::none_of(begin, end, same);
+}
+
 /// Gives each blob a track's index, kNew or kRejected.
 template <class State>
 void matchBlobs(const Eye& eye, const BlobRays& scan, const std::vector<Track>& tracks,
@@ -63,6 +77,8 @@ void matchBlobs(const Eye& eye, const BlobRays& scan, const std::vector<Track>& 
     }
   }
   matchGreedily(candidates, matches);
+  for (std::size_t k = 0; k < matches.size(); ++k)
+    if (matches[k] == kNew && !mayStart(scan, k)) matches[k] = kRejected;
 }
 
 /// Takes a blob into a target, seen from a known pose.
@@ -97,16 +113,14 @@ class TargetMoments
   void add(double weight, const typename Motion::State& state)
   {
     const Gaussian<Pose2D> pose = Motion::pose(state);
+    pose_.add(weight, pose.mean, pose.cov);
+    if (!(weight > 0)) return;
     Matrix2 vCov;
-    const Vector2 v = Motion::velocity(state, vCov);
-    if (weightSum_ == 0) origin_ = pose.mean;
-    const Vector3 d(pose.mean.x - origin_.x, pose.mean.y - origin_.y,
-                    math::wrapToPi(pose.mean.phi - origin_.phi));
+    const Vector2 d = Motion::velocity(state, vCov) - velocity_;
     weightSum_ += weight;
-    first_ += weight * d;
-    second_ += weight * (d * d.transpose() + pose.cov);
-    velocity_ += weight * v;
-    velocitySecond_ += weight * (v * v.transpose() + vCov);
+    const double share = weight / weightSum_;
+    velocity_ += share * d;
+    velocitySecond_ += weight * (vCov + (1 - share) * d * d.transpose());
   }
   [[nodiscard]] core::TargetEstimate estimate(const Track& track) const
   {
@@ -115,20 +129,15 @@ class TargetMoments
     out.label = track.label;
     out.identified = track.identified;
     out.lastSeen = track.lastSeen;
-    const Vector3 m = first_ / weightSum_;
-    out.pose.mean = {origin_.x + m[0], origin_.y + m[1], math::wrapToPi(origin_.phi + m[2])};
-    out.pose.cov = second_ / weightSum_ - m * m.transpose();
-    out.pose.cov = (0.5 * (out.pose.cov + out.pose.cov.transpose())).eval();
-    out.velocity = velocity_ / weightSum_;
-    out.velocityCov = velocitySecond_ / weightSum_ - out.velocity * out.velocity.transpose();
+    out.pose = pose_.gaussian();
+    out.velocity = velocity_;
+    out.velocityCov = velocitySecond_ / weightSum_;
     return out;
   }
 
  private:
-  Pose2D origin_;  // the first particle's: differences stay small, and angles unwrapped
+  PoseMoments pose_;
   double weightSum_ = 0;
-  Vector3 first_ = Vector3::Zero();
-  Matrix3 second_ = Matrix3::Zero();
   Vector2 velocity_ = Vector2::Zero();
   Matrix2 velocitySecond_ = Matrix2::Zero();
 };
