@@ -65,7 +65,7 @@ void RawlogWriter::Impl::writePair(const core::Step& step)
   }
   ::mrpt::obs::CSensoryFrame frame;
   for (const auto& observation : toObservations(step)) frame.insert(observation);
-  if (!step.odometry && frame.size() == 0)
+  if (!step.odometry && frame.empty())
   {
     // Nothing else would keep the step's time.
     auto comment = std::make_shared<::mrpt::obs::CObservationComment>();

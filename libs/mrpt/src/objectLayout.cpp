@@ -75,7 +75,7 @@ void walkParticles(ByteCursor& c, const ObjectHeader& h)
   requireVersion(c, h, 1, 1);
   const auto n = c.count(kMostParticles, 4 * kDouble, "particles");
   if (n == 0) c.damage("a movement of no particles");
-  c.skip(n * 4 * kDouble);
+  c.skip(4 * kDouble * n);
 }
 
 void walkModes(ByteCursor& c, const ObjectHeader& h)

@@ -4,6 +4,7 @@
 // later releases as 0x020E00, 0x030102, ...: compare with 0x030000 only.
 #include <mrpt/version.h>
 
+// NOLINTBEGIN(bugprone-macro-parentheses): types and whole functions take none.
 #if MRPT_VERSION >= 0x030000
 /// `#include SLAMOT_VIZ(CText3D.h)`: a header of what can be drawn.
 #define SLAMOT_VIZ(header) <mrpt/viz/header>
@@ -51,3 +52,4 @@ namespace slamot_viz = ::mrpt::opengl;
     out = member;                                                \
   }
 #endif
+// NOLINTEND(bugprone-macro-parentheses)
