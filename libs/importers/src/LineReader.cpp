@@ -37,7 +37,7 @@ LineReader::LineReader(std::string path) : path_(std::move(path)), file_(nullptr
 
 bool LineReader::fill()
 {
-  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  if (end_ > begin_) std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
   if (end_ > kLongestLine || bytes_ > kMostBytes)
