@@ -57,6 +57,20 @@ TEST(Evaluate, SumsUpErrorsAsDefined)
   EXPECT_NEAR(*e.robot.atScans.positionMean, 0.4, 1e-12);
 }
 
+TEST(Evaluate, HoldsEachRowAgainstItsOwnTruthWhereAClockStandsStill)
+{
+  PerfectRun run(50);
+  for (std::size_t i = 0; i < 50; ++i)
+  {
+    const double time = 1571493463.360583305 + 1e-6 * static_cast<double>(i);
+    run.record.rows[i].time = time;
+    run.truth.robot.poses[i].time = time + (i % 2 == 0 ? 2e-7 : -2e-7);  // as text rounds it
+  }
+  const Evaluation e = evaluate(run.record, run.truth, {});
+  EXPECT_EQ(e.robot.all.count, 50);
+  EXPECT_LT(*e.robot.all.positionMean, 1e-12);
+}
+
 TEST(Evaluate, WrapsTheHeadingError)
 {
   PerfectRun run(1);

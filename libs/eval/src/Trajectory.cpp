@@ -1,6 +1,7 @@
 #include <slamot/eval/Trajectory.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace slamot::eval
 {
@@ -12,10 +13,17 @@ constexpr double kSameTime = 2e-6;
 
 std::optional<TimedPose> Trajectory::at(double time, double maxGap) const
 {
-  const auto after = std::lower_bound(poses.begin(), poses.end(), time - kSameTime,
-                                      [](const TimedPose& p, double t) { return p.time < t; });
+  const auto earlier = [](const TimedPose& p, double t) { return p.time < t; };
+  auto after = std::lower_bound(poses.begin(), poses.end(), time - kSameTime, earlier);
   if (after == poses.end()) return std::nullopt;
-  if (after->time <= time + kSameTime) return *after;
+  if (after->time <= time + kSameTime)
+  {
+    // Rows of a log whose clock stands still are closer than that.
+    while (std::next(after) != poses.end() &&
+           std::abs(std::next(after)->time - time) < std::abs(after->time - time))
+      ++after;
+    return *after;
+  }
   if (after == poses.begin()) return std::nullopt;
   const TimedPose &a = *std::prev(after), &b = *after;
   if (b.time - a.time > maxGap) return std::nullopt;
