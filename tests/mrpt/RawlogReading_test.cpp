@@ -481,6 +481,105 @@ TEST(RawlogReading, LogWithoutTimesIsStillRead)
     EXPECT_NEAR(steps[i].time - steps[i - 1].time, RawlogSource::kPeriodWithoutTimes, 1e-12);
 }
 
+// Pairs whose times stand still, jump ahead, and go back.
+std::string pairsOfBadTimes(int count)
+{
+  std::string bytes;
+  for (int i = 0; i < count; ++i)
+    bytes += pairOf(odometry({1, 0, 0}), {sighting(i == 1 ? 1e6 : 5, 2, 0)});
+  return bytes;
+}
+
+TEST(RawlogReading, StepPeriodReplacesTheLogsTimes)
+{
+  RawlogSource::Options options;
+  options.stepPeriod = 0.1;
+  const auto steps = readBytes(pairsOfBadTimes(249), options);
+  ASSERT_EQ(steps.size(), 249u);
+  EXPECT_EQ(steps[0].time, 0.1);
+  EXPECT_EQ(steps[6].time, 0.7);  // not 0.7000000000000001
+  EXPECT_EQ(steps[248].time, 24.9);
+  EXPECT_THROW(readBytes(pairsOfBadTimes(3)), core::Error);
+}
+
+TEST(RawlogReading, StepPeriodIsTheTimeThatTheOdometryModelTakes)
+{
+  RawlogSource::Options options = model();
+  options.stepPeriod = 0.5;
+  const auto steps = readBytes(pairsOfBadTimes(2), options);
+  ASSERT_EQ(steps.size(), 2u);
+  for (const core::Step& step : steps)
+    EXPECT_NEAR(std::sqrt(step.odometry->cov(0, 0)), 0.2 * 0.5, 0.002);
+}
+
+TEST(RawlogReading, ClockOfOurOwnStartsAtZero)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.file("x.rawlog");
+  RawlogSource::Options options;
+  options.stepPeriod = 0.1;
+  for (const Pose2D& first : {Pose2D(), Pose2D(1, 0, 0)})
+  {
+    savePacked(path, pairOf(odometry(first), {sighting(7, 2, 0)}));
+    RawlogSource source(path, options);
+    EXPECT_EQ(source.starts().time, 0);
+    EXPECT_EQ(source.next()->time, 0.1);
+  }
+}
+
+TEST(RawlogReading, UntimedRestBeforeTimedStepsIsAtTheFirstTime)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.file("x.rawlog");
+  auto rest = odometry({});
+  rest.timestamp = {};
+  savePacked(path, pairOf(rest) + pairOf(odometry({1, 0, 0}), {sighting(7, 2, 0)}));
+  RawlogSource source(path, {});
+  EXPECT_EQ(source.starts().time, 7);
+  EXPECT_EQ(source.next()->time, 7);
+}
+
+TEST(RawlogReading, FirstFrameIsAStepAtTheStartWhereAskedFor)
+{
+  CSensoryFrame first;
+  first.insert(sighting(7, 2.5F, 0));
+  const std::string bytes = serialized(first) + pairOf(odometry({1, 0, 0}), {sighting(8, 2, 0)}) +
+                            serialized(CActionCollection());
+  EXPECT_EQ(readBytes(bytes).size(), 1u);
+  for (const double period : {0.0, 0.1})
+  {
+    RawlogSource::Options options;
+    options.useFirstFrame = true;
+    options.stepPeriod = period;
+    const auto steps = readBytes(bytes, options);
+    ASSERT_EQ(steps.size(), 2u);  // the last action has no frame still
+    EXPECT_FALSE(steps[0].odometry);
+    ASSERT_TRUE(steps[0].landmarks);
+    EXPECT_EQ(steps[0].landmarks->sightings.at(0).range, 2.5);
+    EXPECT_EQ(steps[0].time, period > 0 ? 0 : 7);
+    EXPECT_EQ(steps[1].time, period > 0 ? period : 8);
+    EXPECT_EQ(steps[1].landmarks->sightings.at(0).range, 2);
+  }
+}
+
+TEST(RawlogReading, LogSectionIsReadStrictly)
+{
+  const auto read = [](const std::string& text)
+  {
+    core::Config config = core::Config::parse(text, "x.ini");
+    const auto options = RawlogSource::Options::from(config);
+    config.requireAllRead();
+    return options;
+  };
+  EXPECT_EQ(read("[log]\nstep_period_s = 0.1\n").stepPeriod, 0.1);
+  EXPECT_EQ(read("").stepPeriod, 0);
+  EXPECT_FALSE(read("").useFirstFrame);
+  EXPECT_TRUE(read("[log]\nfirst_frame = use\n").useFirstFrame);
+  for (const char* wrong :
+       {"step_period_s = -1", "step_period_s = 1e-9", "first_frame = yes", "step_period = 0.1"})
+    EXPECT_THROW(read(std::string("[log]\n") + wrong + "\n"), core::Error) << wrong;
+}
+
 TEST(RawlogReading, MissingTimesAreThoseOfTheStepBefore)
 {
   auto movement = odometry({1, 0, 0});

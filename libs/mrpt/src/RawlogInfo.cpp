@@ -86,12 +86,16 @@ void addNotes(RawlogInfo& info, const LogFacts& facts)
     note(format("%zu sightings are at range zero or below, or out of the field of view: dropped",
                 info.dropped));
   if (facts.beginsWithFrame)
-    note("begins with a frame: the first frame and the last action belong to no pair, left out");
+    note(
+        "begins with a frame: it and the last action belong to no pair, left out; set [log] "
+        "first_frame = use to use it");
   if (info.steps > 0 && !info.firstTime)
     note("no entry has a valid time: steps are taken 0.1 s apart");
   else if (info.steps > 10 &&
            *info.lastTime - *info.firstTime < kShortestStep * static_cast<double>(info.steps))
-    note("times are too close together to be those of the drive");
+    note(
+        "times are too close together to be those of the drive: set [log] step_period_s to replace "
+        "them");
   for (const SensorInfo& sensor : info.sensors)
     if (!sensor.used) note("slamot does not use " + sensor.className);
 }

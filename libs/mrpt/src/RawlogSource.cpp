@@ -7,6 +7,11 @@
 
 namespace slamot::mrpt
 {
+namespace
+{
+constexpr double kShortestPeriod = 1e-6;  // [s]: result files print nanoseconds
+}
+
 struct RawlogSource::Impl
 {
   Impl(const std::string& p, const Options& o) : path(p), options(o) {}
@@ -36,9 +41,14 @@ RawlogSource::SensorDeviations RawlogSource::SensorDeviations::from(core::Params
 RawlogSource::Options RawlogSource::Options::from(core::Config& config)
 {
   core::Params odometryParams(config, "odometer"), sensorParams(config, "sensor");
+  core::Params logParams(config, "log");
   Options out;
   out.odometry = core::OdometryModel::from(odometryParams);
   out.sensor = SensorDeviations::from(sensorParams);
+  out.stepPeriod = logParams.inRange("step_period_s", 0, 1e6, 0.0);
+  if (out.stepPeriod > 0 && out.stepPeriod < kShortestPeriod)
+    logParams.fail("step_period_s", "is below 1e-6 s", "set it to 0 for the log's own times");
+  out.useFirstFrame = logParams.choice("first_frame", {"skip", "use"}, "skip") == "use";
   return out;
 }
 

@@ -122,12 +122,13 @@ std::optional<core::Step> StepAssembler::assemble()
   {
     facts_.hasFrames = true;
     facts_.beginsWithFrame = facts_.beginsWithFrame || first;
-    if (first) return std::nullopt;
+    if (first && !options_.useFirstFrame) return std::nullopt;
     core::Step step;
     std::optional<double> time;
     addFrame(step, time);
     if (!step.odometry && !holdsSightings(step)) return std::nullopt;
     setTime(step, time, false);
+    if (first && isAtRest(step)) noteRest(time);
     applyModel(step);
     return step;
   }
@@ -141,7 +142,7 @@ std::optional<core::Step> StepAssembler::assemblePair()
   if (const auto movement = movementAmong(current_))
   {
     step.odometry = incrementOf(*movement, current_);
-    actionTime = toSeconds(movement->timestamp);
+    actionTime = timeOf(movement->timestamp);
     if (movement->hasVelocities) setVelocity(movement->velocityLocal);
   }
   std::optional<double> time;
@@ -154,8 +155,9 @@ std::optional<core::Step> StepAssembler::assemblePair()
   else if (peek() == nullptr && facts_.beginsWithFrame)
     return std::nullopt;
   const bool fromAction = !time;
-  setTime(step, fromAction ? actionTime : time, fromAction);
-  if (facts_.steps == 0 && isAtRest(step)) facts_.restTime = step.time;
+  if (fromAction) time = actionTime;
+  setTime(step, time, fromAction);
+  if (facts_.steps == 0 && isAtRest(step)) noteRest(time);
   applyModel(step);
   return step;
 }
@@ -171,7 +173,7 @@ void StepAssembler::addFrame(core::Step& step, std::optional<double>& time)
     const bool isSame =
         hasMovement && dynamic_cast<const CObservationOdometry*>(observation.get()) != nullptr;
     if (!isSame) add(step, *observation);
-    if (!time) time = toSeconds(observation->timestamp);
+    if (!time) time = timeOf(observation->timestamp);
   }
 }
 
@@ -189,9 +191,9 @@ std::optional<core::Step> StepAssembler::assembleGroup()
     take();
     used = add(step, *observation) || used;
   }
-  const auto time = toSeconds(stamp);
+  const auto time = timeOf(stamp);
   if (time) noteTime(*time);
-  if (first && time && isAtRest(step)) facts_.restTime = time;
+  if (first && isAtRest(step)) noteRest(time);
   if (!used || (!step.odometry && !holdsSightings(step))) return std::nullopt;
   setTime(step, time, false);
   applyModel(step);
@@ -219,7 +221,7 @@ bool StepAssembler::addOdometry(core::Step& step, const CObservationOdometry& od
     if (!step.odometry) step.odometry.emplace();
     step.odometry->mean = math::compose(step.odometry->mean, math::between(*odometryPose_, pose));
   }
-  else if (const auto time = toSeconds(odometry.timestamp))
+  else if (const auto time = timeOf(odometry.timestamp))
     lastMotionTime_ = time;
   odometryPose_ = pose;
   return true;
@@ -236,6 +238,18 @@ void StepAssembler::setVelocity(const ::mrpt::math::TTwist2D& v)
 bool StepAssembler::isAtRest(const core::Step& step) const
 {
   return !step.odometry || (isStill(step.odometry->mean) && !(velocity_ && isMoving(*velocity_)));
+}
+
+// None where the config says that the log's times tell nothing.
+std::optional<double> StepAssembler::timeOf(const ::mrpt::Clock::time_point& stamp) const
+{
+  return options_.stepPeriod > 0 ? std::nullopt : toSeconds(stamp);
+}
+
+void StepAssembler::noteRest(std::optional<double> time)
+{
+  facts_.beginsAtRest = true;
+  facts_.restTime = time;
 }
 
 void StepAssembler::noteTime(double time)
@@ -260,15 +274,22 @@ void StepAssembler::setTime(core::Step& step, std::optional<double> time, bool f
     }
     latest = *time;
   }
-  else if (lastTime_)
-    time = before_ != nullptr && before_->firstTime
-               ? *lastTime_
-               : *lastTime_ + RawlogSource::kPeriodWithoutTimes;
+  else if (before_ != nullptr && before_->firstTime)
+    time = lastTime_ ? *lastTime_ : *before_->firstTime;
   else
-    time = before_ != nullptr && before_->firstTime ? *before_->firstTime
-                                                    : RawlogSource::kPeriodWithoutTimes;
+    time = countedTime(step);
   step.time = lastTime_ ? std::max(*time, *lastTime_) : *time;
   lastTime_ = step.time;
+}
+
+// By a clock of our own the start is at zero, and so is what is seen there before any motion.
+double StepAssembler::countedTime(const core::Step& step) const
+{
+  if (!lastTime_ && !step.odometry) return 0;
+  const double period =
+      options_.stepPeriod > 0 ? options_.stepPeriod : RawlogSource::kPeriodWithoutTimes;
+  const double time = period * (std::round(lastTime_.value_or(0) / period) + 1);
+  return std::round(time * 1e9) / 1e9;  // as result files have it
 }
 
 void StepAssembler::applyModel(core::Step& step)

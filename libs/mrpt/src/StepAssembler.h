@@ -2,6 +2,7 @@
 
 #include "EntryReader.h"
 
+#include <mrpt/core/Clock.h>
 #include <mrpt/math/TTwist2D.h>
 #include <slamot/mrpt/RawlogSource.h>
 
@@ -26,7 +27,8 @@ struct LogFacts
   bool hasFrames = false;              ///< of actions and frames; else observations only
   bool beginsWithFrame = false;
   std::optional<double> firstTime, lastTime;  ///< the first and last that are valid [s]
-  std::optional<double> restTime;             ///< of the first entry, if it holds no motion [s]
+  bool beginsAtRest = false;                  ///< the first entry holds no motion
+  std::optional<double> restTime;             ///< its time, if valid [s]
   double firstPeriod = 0;                     ///< between the first two times that differ [s]
   bool moves = false;                         ///< some increment is not zero
   bool hasVelocities = false;                 ///< nor some velocity
@@ -65,7 +67,10 @@ class StepAssembler
   void setVelocity(const ::mrpt::math::TTwist2D& v);
   [[nodiscard]] bool isAtRest(const core::Step& step) const;
   void setTime(core::Step& step, std::optional<double> time, bool fromAction);
+  [[nodiscard]] double countedTime(const core::Step& step) const;
+  [[nodiscard]] std::optional<double> timeOf(const ::mrpt::Clock::time_point& stamp) const;
   void noteTime(double time);
+  void noteRest(std::optional<double> time);
   void applyModel(core::Step& step);
 
   EntryReader reader_;

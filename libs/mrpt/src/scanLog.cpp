@@ -20,7 +20,13 @@ LogScan scanLog(const std::string& path, const RawlogSource::Options& options,
   {
     out.error = e;
   }
-  if (pass) out.facts = pass->facts();
+  if (!pass) return out;
+  out.facts = pass->facts();
+  // By a clock of our own the start is at zero; else what is untimed at first is at the first time.
+  if (!out.facts.firstTime)
+    out.facts.restTime = 0;
+  else if (out.facts.beginsAtRest && !out.facts.restTime)
+    out.facts.restTime = out.facts.firstTime;
   return out;
 }
 
@@ -40,7 +46,7 @@ core::Starts startsOf(const LogFacts& facts, const std::string& path)
   for (const std::string& section : comment.sections())
     if (section != "start") others.push_back(section);
   comment.requireAllRead(others);
-  if (!starts.time) starts.time = facts.restTime;
+  if (!starts.time || !facts.firstTime) starts.time = facts.restTime;
   return starts;
 }
 }  // namespace slamot::mrpt

@@ -12,14 +12,16 @@ namespace slamot::mrpt
 ///
 /// Pairs: an action and the frame after it are a step; an action with another after it is a step
 /// without sightings.  Of a log that begins with a frame, as MRPT's simulator writes, the first
-/// frame and the last action belong to no pair and are left out, as by MRPT's own programs.
+/// frame and the last action belong to no pair and are left out, as by MRPT's own programs; with
+/// Options::useFirstFrame that frame is a step without odometry, at the start.
 /// Observations only: consecutive ones of one timestamp are a step; increments are differences of
 /// CObservationOdometry's poses, of the first odometry sensor in the log.  Frames without a
 /// movement beside them may hold such poses too.  Where by its increments the robot never moves,
 /// but velocities are given, those are integrated instead.
 ///
 /// A step's time is that of the first observation that has one, else the action's, else that of the
-/// step before; in a log without any, steps are kPeriodWithoutTimes apart.
+/// step before.  In a log without any, or with Options::stepPeriod, the start is at zero and steps
+/// are that apart.
 class RawlogSource : public core::Source
 {
  public:
@@ -39,7 +41,9 @@ class RawlogSource : public core::Source
     core::OdometryModel odometry;
     bool salvage = false;  ///< deliver the intact first part of a truncated log, then say so
     SensorDeviations sensor;
-    /// Sections [odometer] and [sensor].
+    double stepPeriod = 0;       ///< in place of the log's times; 0: those [s]
+    bool useFirstFrame = false;  ///< of a log that begins with a frame
+    /// Sections [odometer], [sensor] and [log].
     static Options from(core::Config& config);
   };
 
