@@ -23,6 +23,11 @@ TEST(OdometryModel, LeavesWhatTheLogSays)
   EXPECT_EQ(out.cov, g.cov);
 }
 
+TEST(OdometryModel, LeavesTheModelsKeysAloneWhereTheLogIsToldToCount)
+{
+  EXPECT_TRUE(model("noise = log\nv_std_mps = 0.1\nomega_std_deg_per_s = 1\n").fromLog);
+}
+
 TEST(OdometryModel, MakesTheCovarianceOfTurnThenMove)
 {
   const auto truth = math::turnThenMove(1.5, -0.8, 0.2, 0.4, 0.5);

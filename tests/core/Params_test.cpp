@@ -148,4 +148,14 @@ TEST(Params, TakesADefaultOnlyWhereTheKeyIsAbsent)
   EXPECT_EQ(p.keys(), std::vector<std::string>{"x"});
   expectConfigError([&] { p.fail("x", "is bad", "mend it"); }, {"x.ini [f] x: is bad; mend it"});
 }
+
+TEST(Params, LeavesKeysOfAChoiceNotMadeAlone)
+{
+  Config c = Config::parse("[f]\nnoise = log\nx = abc\n", "x.ini");
+  Params p(c, "f");
+  (void)p.choice("noise", {"log", "model"});
+  p.allowUnused({"x", "y"});
+  c.requireAllRead();
+  EXPECT_EQ(c.effectiveText(), "[f]\nnoise = log\n");
+}
 }  // namespace slamot::core

@@ -72,4 +72,14 @@ TEST(RbpfSettings, ResampleByEveryScheme)
   for (const char* scheme : {"systematic", "stratified", "residual", "multinomial"})
     EXPECT_EQ(errorOf(kGood + "resampling = " + scheme + "\n"), "");
 }
+
+// Else --set could not choose another motion than the one whose keys the file holds.
+TEST(RbpfSettings, LeaveTheKeysOfTheOtherMotionAlone)
+{
+  const std::string drive =
+      "target_speed_mps = 1\ntarget_turn_rate_deg_per_s = 0\ntarget_speed_noise_mps = 0.1\n"
+      "target_turn_rate_noise_deg_per_s = 1\ntarget_speed_std_mps = 0\n";
+  EXPECT_EQ(errorOf(kGood + drive), "");
+  EXPECT_EQ(errorOf(kGood + drive + "target_motion = differential-drive\n"), "");
+}
 }  // namespace slamot::filters

@@ -8,7 +8,11 @@ OdometryModel OdometryModel::from(Params& p)
 {
   OdometryModel out;
   out.fromLog = p.choice("noise", {"log", "model"}, "log") == "log";
-  if (out.fromLog) return out;
+  if (out.fromLog)
+  {
+    p.allowUnused({"v_std_mps", "omega_std_deg_per_s", "v_scale_std", "omega_scale_std"});
+    return out;
+  }
   out.vStd = p.nonNegative("v_std_mps");
   out.omegaStd = p.nonNegative("omega_std_deg_per_s");
   out.vScaleStd = p.nonNegative("v_scale_std", 0.0);

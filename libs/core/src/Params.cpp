@@ -196,6 +196,17 @@ std::vector<double> Params::numbers(const std::string& key, std::optional<std::s
   return values;
 }
 
+void Params::allowUnused(const std::vector<std::string>& keys)
+{
+  auto& section = config_->sections_[section_];
+  for (const std::string& key : keys)
+  {
+    remember(section.asked, key);
+    const auto it = section.entries.find(key);
+    if (it != section.entries.end()) it->second.read = true;
+  }
+}
+
 std::vector<std::string> Params::keys() const
 {
   std::vector<std::string> names;

@@ -221,7 +221,15 @@ TargetMotion targetMotionFrom(core::Params& p)
 {
   const std::string motion =
       p.choice("target_motion", {"differential-drive", "damped-velocity"}, "damped-velocity");
-  if (motion == "differential-drive") return DifferentialDriveTarget(DifferentialDriveTarget::Params::from(p));
+  if (motion == "differential-drive")
+  {
+    p.allowUnused({"target_velocity_std_mps", "target_velocity_time_s"});
+    return DifferentialDriveTarget(DifferentialDriveTarget::Params::from(p));
+  }
+  p.allowUnused({"target_speed_mps", "target_speed_std_mps", "target_turn_rate_deg_per_s",
+                 "target_turn_rate_std_deg_per_s", "target_speed_noise_mps",
+                 "target_turn_rate_noise_deg_per_s", "target_speed_walk_mps_per_sqrt_s",
+                 "target_turn_rate_walk_deg_per_s_per_sqrt_s"});
   return DampedVelocityTarget(DampedVelocityTarget::Params::from(p));
 }
 }  // namespace slamot::models

@@ -40,6 +40,10 @@ class Params
   std::optional<double> optionalNumber(const std::string& key,
                                        double lo = -std::numeric_limits<double>::infinity());
 
+  /// Keys that only another choice than the one made would read: known, and left alone, so that
+  /// --set can change a choice whose keys the file holds.
+  void allowUnused(const std::vector<std::string>& keys);
+
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] bool has(const std::string& key) const { return config_->has(section_, key); }
   [[nodiscard]] const std::string& section() const { return section_; }
