@@ -31,31 +31,31 @@ mrpt::SceneTrack robotOf(const results::RunView& run, const Pose2D& mapFromTruth
   return track;
 }
 
-mrpt::SceneTrack targetOf(const eval::TargetTrack& target, std::size_t rowsOfRun)
+/// Appends a track's pieces, and its end if it is followed to the end of the run.
+void append(mrpt::SceneTrack& out, const eval::TargetTrack& target, std::size_t rowsOfRun)
 {
-  mrpt::SceneTrack track;
-  track.name = results::nameOf(target);
   for (std::size_t i = 0; i < target.rows.size(); ++i)
   {
     const auto& row = target.rows[i];
-    if (i == 0 || row.row != target.rows[i - 1].row + 1) track.path.emplace_back();
-    track.path.back().push_back({row.pose.mean.x, row.pose.mean.y});
+    if (i == 0 || row.row != target.rows[i - 1].row + 1) out.path.emplace_back();
+    out.path.back().push_back({row.pose.mean.x, row.pose.mean.y});
   }
   if (!target.rows.empty() && target.rows.back().row + 1 == rowsOfRun)
-    track.now = target.rows.back().pose;
-  return track;
+    out.now = target.rows.back().pose;
 }
 
-/// True paths go to the first track that stands for them; those of no track to the robot's.
-void addTrueTargets(mrpt::SceneData& scene, const results::RunView& run, const Pose2D& mapFromTruth)
+/// All tracks of a true target with its true path; that of one never tracked goes to the robot's.
+void addTargets(mrpt::SceneData& scene, const results::RunView& run, const Pose2D& mapFromTruth)
 {
-  const auto& tracks = run.evaluation.targets;
-  for (const auto& [id, trajectory] : run.truth.targets)
+  for (const auto& group : results::targetGroups(run.record, run.evaluation))
   {
-    auto* owner = &scene.robot;
-    for (std::size_t i = scene.targets.size(); i-- > 0;)
-      if (i < tracks.size() && tracks[i].truthId == id) owner = &scene.targets[i];
-    appendTruth(owner->truth, mapFromTruth, trajectory);
+    mrpt::SceneTrack track;
+    track.name = group.name;
+    for (const std::size_t i : group.tracks)
+      append(track, run.record.targets[i], run.record.rows.size());
+    auto& truth = track.path.empty() ? scene.robot.truth : track.truth;
+    if (group.truthId) appendTruth(truth, mapFromTruth, run.truth.targets.at(*group.truthId));
+    if (!track.path.empty()) scene.targets.push_back(std::move(track));
   }
 }
 
@@ -80,9 +80,7 @@ mrpt::SceneData sceneOf(const std::string& title, const results::RunView& run,
   mrpt::SceneData scene;
   scene.title = title;
   scene.robot = robotOf(run, mapFromTruth);
-  for (const auto& target : run.record.targets)
-    scene.targets.push_back(targetOf(target, run.record.rows.size()));
-  addTrueTargets(scene, run, mapFromTruth);
+  addTargets(scene, run, mapFromTruth);
   scene.landmarks = run.record.landmarks;
   for (const auto& [id, p] : run.truth.landmarks)
     scene.trueLandmarks.push_back(math::transform(mapFromTruth, p));

@@ -109,6 +109,41 @@ TEST(Report, DoesWithoutTruth)
   EXPECT_EQ(countOf(html, "<svg"), 2u);  // map and effective sample size
 }
 
+// A target without identity that was lost comes back under another number.
+SampleRun sampleInTwoTracks()
+{
+  SampleRun run = sampleRun();
+  eval::TargetTrack& first = run.record.targets[0];
+  first.identified = false, first.label = "mate", first.id = 0;
+  eval::TargetTrack second = first;
+  second.id = 1;
+  first.rows.resize(100);
+  second.rows.erase(second.rows.begin(), second.rows.begin() + 200);
+  run.record.targets.push_back(second);
+  eval::TargetTrack wrong = second;
+  wrong.id = 2;
+  run.record.targets.push_back(wrong);
+  run.evaluation.targets.resize(3, run.evaluation.targets[0]);
+  run.evaluation.targets[0].steps.resize(100);
+  auto& steps = run.evaluation.targets[1].steps;
+  steps.erase(steps.begin(), steps.begin() + 200);
+  run.evaluation.targets[2] = {};
+  return run;
+}
+
+TEST(Report, ShowsATrueTargetOnceWithAllItsTracks)
+{
+  const SampleRun run = sampleInTwoTracks();
+  const std::string html = pageOf(run).html;
+  EXPECT_EQ(countOf(html, "<svg"), 5u);
+  EXPECT_EQ(countOf(html, "Errors of mate"), countOf(html, "Errors of the robot"));
+  EXPECT_THAT(html, HasSubstr("tracks 0, 1"));
+  EXPECT_THAT(html, HasSubstr("track 2"));
+  const std::string table = summaryTable(run.record, run.evaluation);
+  EXPECT_THAT(table, HasSubstr("tracked                 100.0% of its steps, tracks 0, 1\n"));
+  EXPECT_THAT(table, HasSubstr("of no true target: track 2\n"));
+}
+
 TEST(Report, DoesWithoutAnything)
 {
   const SampleRun empty;

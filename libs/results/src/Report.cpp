@@ -47,9 +47,10 @@ void addErrors(HtmlPage& page, const RunView& run)
       ": estimate less truth. The grey band is what the filter believes, three "
       "standard deviations to each side.";
   if (const auto figure = robotErrorFigure(run)) page.figure("Errors of the robot" + how, *figure);
-  for (std::size_t i = 0; i < run.record.targets.size(); ++i)
-    if (const auto figure = targetErrorFigure(run, i))
-      page.figure("Errors of " + nameOf(run.record.targets[i]) + how, *figure);
+  const auto groups = targetGroups(run.record, run.evaluation);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (const auto figure = targetErrorFigure(run, groups[g], inkOf(g)))
+      page.figure("Errors of " + groups[g].name + how, *figure);
 }
 
 void addPlots(HtmlPage& page, const RunView& run)

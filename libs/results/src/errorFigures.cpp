@@ -36,9 +36,9 @@ double timeOf(const eval::Record& record, std::size_t row)
 
 /// \param covOf the covariance, in map axes, of the estimate at a row.
 template <class CovOf>
-ErrorTrack errorTrack(const RunView& run, const std::vector<eval::StepError>& steps, CovOf covOf)
+void append(ErrorTrack& track, const RunView& run, const std::vector<eval::StepError>& steps,
+            CovOf covOf)
 {
-  ErrorTrack track;
   const Matrix3 r = math::poseRotation(run.evaluation.truthFromMap.phi);
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
@@ -51,7 +51,6 @@ ErrorTrack errorTrack(const RunView& run, const std::vector<eval::StepError>& st
     track.error.push_back(error);
     track.deviation.push_back(cov.diagonal().cwiseMax(0).cwiseSqrt());
   }
-  return track;
 }
 
 /// Shows all of the errors and most of the bounds: those of a target long unseen would dwarf all.
@@ -150,21 +149,29 @@ bool allHeadingsKnown(const eval::Evaluation& e)
 
 std::optional<Figure> robotErrorFigure(const RunView& run)
 {
+  ErrorTrack track;
   const auto covOf = [&](std::size_t row) { return run.record.rows[row].robot.cov; };
-  return errorFigure(errorTrack(run, run.evaluation.robot.steps, covOf), Ink::kBlue, run.record);
+  append(track, run, run.evaluation.robot.steps, covOf);
+  return errorFigure(track, Ink::kBlue, run.record);
 }
 
-std::optional<Figure> targetErrorFigure(const RunView& run, std::size_t target)
+std::optional<Figure> targetErrorFigure(const RunView& run, const TargetGroup& group, Ink ink)
 {
-  if (target >= run.evaluation.targets.size()) return std::nullopt;
-  const auto& rows = run.record.targets.at(target).rows;
-  const auto covOf = [&](std::size_t row) -> Matrix3
+  if (!group.evaluation) return std::nullopt;
+  ErrorTrack errors;
+  for (const std::size_t i : group.tracks)
   {
-    const auto before = [](const eval::TargetRow& r, std::size_t wanted) { return r.row < wanted; };
-    return std::lower_bound(rows.begin(), rows.end(), row, before)->pose.cov;
-  };
-  return errorFigure(errorTrack(run, run.evaluation.targets[target].steps, covOf), inkOf(target),
-                     run.record);
+    const auto& rows = run.record.targets[i].rows;
+    const auto covOf = [&](std::size_t row) -> Matrix3
+    {
+      const auto before = [](const eval::TargetRow& r, std::size_t wanted)
+      { return r.row < wanted; };
+      return std::lower_bound(rows.begin(), rows.end(), row, before)->pose.cov;
+    };
+    errors.gap();
+    append(errors, run, run.evaluation.targets[i].steps, covOf);
+  }
+  return errorFigure(errors, ink, run.record);
 }
 
 std::optional<Figure> essFigure(const eval::Record& record)
@@ -199,9 +206,11 @@ std::optional<Figure> neesFigure(const RunView& run)
   plot.yLabel = withHeading ? "NEES of x, y, heading" : "NEES of x, y";
   std::vector<Series> curves{
       neesOf(run.record, run.evaluation.robot.steps, withHeading, "robot", Ink::kBlue)};
-  for (std::size_t i = 0; i < run.record.targets.size() && i < run.evaluation.targets.size(); ++i)
-    curves.push_back(neesOf(run.record, run.evaluation.targets[i].steps, withHeading,
-                            nameOf(run.record.targets[i]), inkOf(i)));
+  const auto groups = targetGroups(run.record, run.evaluation);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (groups[g].evaluation)
+      curves.push_back(
+          neesOf(run.record, groups[g].evaluation->steps, withHeading, groups[g].name, inkOf(g)));
   double highest = 0;
   for (const Series& s : curves)
     for (const double y : s.y) highest = std::isfinite(y) ? std::max(highest, y) : highest;

@@ -45,6 +45,19 @@ void addTargetRows(Table& table, const std::string& name, const eval::TargetEval
   add(", relative to robot, at sightings", t.relativeAtSightings);
 }
 
+void addTargetFact(Table& table, const eval::Record& record, const TargetGroup& group)
+{
+  if (!group.evaluation && !group.tracks.empty())
+    return table.rows.push_back({"targets " + group.name, trackNames(record, group)});
+  if (!group.evaluation || !group.evaluation->trackedFraction) return;
+  std::string text = fixed(100 * *group.evaluation->trackedFraction, 1) + "% of the time";
+  // Where the sensor gave identities, the one track has the name of the group.
+  const auto& tracks = group.tracks;
+  if (!tracks.empty() && !record.targets[tracks.front()].identified)
+    text += ", " + trackNames(record, group);
+  table.rows.push_back({group.name + " tracked", text});
+}
+
 void addMapFacts(Table& table, const eval::LandmarkEvaluation& map)
 {
   if (!map.mapped) return;
@@ -92,18 +105,16 @@ Table errorTable(const RunView& run)
   const auto& e = run.evaluation;
   if (e.robot.all.count > 0) table.rows.push_back(errorRow("robot", e.robot.all));
   if (e.robot.atScans.count > 0) table.rows.push_back(errorRow("robot, at scans", e.robot.atScans));
-  for (std::size_t i = 0; i < run.record.targets.size() && i < e.targets.size(); ++i)
-    addTargetRows(table, nameOf(run.record.targets[i]), e.targets[i]);
+  for (const TargetGroup& group : targetGroups(run.record, e))
+    if (group.evaluation) addTargetRows(table, group.name, *group.evaluation);
   return table;
 }
 
 Table factTable(const RunView& run)
 {
   Table table;
-  for (const auto& t : run.evaluation.trueTargets)
-    if (t.trackedFraction)
-      table.rows.push_back({"true target " + std::to_string(t.id) + " tracked",
-                            fixed(100 * *t.trackedFraction, 1) + "% of the time"});
+  for (const TargetGroup& group : targetGroups(run.record, run.evaluation))
+    addTargetFact(table, run.record, group);
   addMapFacts(table, run.evaluation.landmarks);
   if (run.evaluation.association) addAssociationFacts(table, *run.evaluation.association);
   addParticleFacts(table, run.record);

@@ -69,7 +69,7 @@ void addLandmarks(Plot& plot, const RunView& run, const TruthMover& mover)
 
 Series pathOf(const eval::TargetTrack& track, Kind kind)
 {
-  Series path{kind, nameOf(track), Ink::kVermillion, {}, {}, {}, {}};
+  Series path{kind, "", Ink::kVermillion, {}, {}, {}, {}};
   for (std::size_t i = 0; i < track.rows.size(); ++i)
   {
     if (i > 0 && track.rows[i].row != track.rows[i - 1].row + 1) breakLine(path);
@@ -78,37 +78,46 @@ Series pathOf(const eval::TargetTrack& track, Kind kind)
   return path;
 }
 
-void addTargets(Plot& plot, const RunView& run, double arrow)
+void addTrack(Plot& plot, const RunView& run, const eval::TargetTrack& track,
+              const std::string& title, Ink ink, double arrow)
 {
-  const auto& targets = run.record.targets;
-  for (std::size_t i = 0; i < targets.size(); ++i)
+  Series path = pathOf(track, lineKind(run.record.rows.size()));
+  path.title = title;
+  path.ink = ink;
+  plot.series.push_back(path);
+  if (track.rows.back().row + 1 != run.record.rows.size()) return;  // lost by then
+  Series end{Kind::kSolid, "", ink, {}, {}, {}, {}};
+  appendArrow(end, track.rows.back().pose.mean, arrow);
+  plot.series.push_back(end);
+}
+
+/// All tracks of one target have one colour, and its true path too.
+void addTargets(Plot& plot, const RunView& run, const std::vector<TargetGroup>& groups,
+                double arrow)
+{
+  bool named = false;
+  for (std::size_t g = 0; g < groups.size(); ++g)
   {
-    if (targets[i].rows.empty()) continue;
-    Series path = pathOf(targets[i], lineKind(run.record.rows.size()));
-    path.ink = inkOf(i);
-    if (targets.size() > kNamedTargets) path.title = i == 0 ? "targets" : "";
-    plot.series.push_back(path);
-    const bool there = targets[i].rows.back().row + 1 == run.record.rows.size();
-    Series end{Kind::kSolid, "", path.ink, {}, {}, {}, {}};
-    appendArrow(end, targets[i].rows.back().pose.mean, arrow);
-    if (there) plot.series.push_back(end);
+    std::string title = groups[g].name;
+    if (groups.size() > kNamedTargets) title = named ? "" : "targets";
+    for (const std::size_t i : groups[g].tracks)
+    {
+      if (run.record.targets[i].rows.empty()) continue;
+      addTrack(plot, run, run.record.targets[i], title, inkOf(g), arrow);
+      title.clear();
+      named = true;
+    }
   }
 }
 
-/// The colour of the first track that stands for a true target.
-Ink inkOfTruth(const eval::Evaluation& evaluation, int truthId)
+void addTruePaths(Plot& plot, const RunView& run, const std::vector<TargetGroup>& groups,
+                  const TruthMover& mover)
 {
-  for (std::size_t i = 0; i < evaluation.targets.size(); ++i)
-    if (evaluation.targets[i].truthId == truthId) return inkOf(i);
-  return Ink::kMuted;
-}
-
-void addTruePaths(Plot& plot, const RunView& run, const TruthMover& mover)
-{
-  for (const auto& [id, trajectory] : run.truth.targets)
+  for (std::size_t g = 0; g < groups.size(); ++g)
   {
-    Series path{Kind::kDashes, "", inkOfTruth(run.evaluation, id), {}, {}, {}, {}};
-    mover.append(path, trajectory);
+    if (!groups[g].truthId) continue;
+    Series path{Kind::kDashes, "", inkOf(g), {}, {}, {}, {}};
+    mover.append(path, run.truth.targets.at(*groups[g].truthId));
     plot.series.push_back(path);
   }
   if (run.truth.robot.empty()) return;
@@ -135,12 +144,6 @@ double extent(const eval::Record& record)
 }
 }  // namespace
 
-std::string nameOf(const eval::TargetTrack& track)
-{
-  const std::string label = track.label.empty() ? "target" : track.label;
-  return label + " " + std::to_string(track.id) + (track.identified ? "" : " (no identity)");
-}
-
 Figure mapFigure(const RunView& run)
 {
   Plot plot;
@@ -157,8 +160,9 @@ Figure mapFigure(const RunView& run)
     appendPoint(robot, row.robot.mean.x, row.robot.mean.y);
   }
   plot.series = {odometry, robot};
-  addTargets(plot, run, arrow);
-  addTruePaths(plot, run, mover);
+  const auto groups = targetGroups(run.record, run.evaluation);
+  addTargets(plot, run, groups, arrow);
+  addTruePaths(plot, run, groups, mover);
   addLandmarks(plot, run, mover);
   Series end{Kind::kSolid, "", Ink::kBlue, {}, {}, {}, {}};
   if (!run.record.rows.empty()) appendArrow(end, run.record.rows.back().robot.mean, arrow);

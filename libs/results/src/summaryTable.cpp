@@ -1,3 +1,4 @@
+#include <slamot/results/Figures.h>
 #include <slamot/results/Summary.h>
 #include <slamot/results/TextFile.h>
 
@@ -47,28 +48,35 @@ std::string errorLine(const std::string& name, const eval::ErrorSummary& e)
          (percent ? cell(percent, 1, 7) + "%" : right("-", 8)) + "\n";
 }
 
-std::string targetLines(const eval::TargetEvaluation& t, bool detailed)
+std::string detailLines(const eval::TargetEvaluation& t)
 {
-  const std::string name = "target " + std::to_string(t.id);
-  if (!t.truthId) return left(name) + "stands for no true target\n";
-  if (t.all.count == 0) return left(name) + "never tracked\n";
-  std::string text = errorLine(name, t.all);
+  std::string text;
   const auto add = [&](const std::string& part, const eval::ErrorSummary& e)
   {
     if (e.count > 0) text += errorLine("  " + part, e);
   };
-  if (detailed)
-  {
-    add("at scans", t.atScans);
-    add("at sightings", t.atSightings);
-    add("as seen from the robot", t.relativeAtSightings);
-    for (const eval::SinceSeen& bin : t.sinceSeen)
-      add("unseen " + fixed(bin.from, 0) + (bin.to < 1e8 ? " to " + fixed(bin.to, 0) : "+") + " s",
-          bin.errors);
-  }
-  if (t.trackedFraction)
-    text += left("  tracked") + fixed(100 * *t.trackedFraction, 1) + "% of its steps\n";
+  add("at scans", t.atScans);
+  add("at sightings", t.atSightings);
+  add("as seen from the robot", t.relativeAtSightings);
+  for (const eval::SinceSeen& bin : t.sinceSeen)
+    add("unseen " + fixed(bin.from, 0) + (bin.to < 1e8 ? " to " + fixed(bin.to, 0) : "+") + " s",
+        bin.errors);
   return text;
+}
+
+// Where the sensor gave identities, the one track has the target's name.
+std::string targetLines(const eval::Record& record, const TargetGroup& group, bool detailed)
+{
+  if (!group.evaluation)
+    return left("targets") + group.name + ": " + trackNames(record, group) + "\n";
+  const eval::TargetEvaluation& t = *group.evaluation;
+  if (t.all.count == 0) return left(group.name) + "never tracked\n";
+  std::string text = errorLine(group.name, t.all);
+  if (detailed) text += detailLines(t);
+  if (!t.trackedFraction) return text;
+  text += left("  tracked") + fixed(100 * *t.trackedFraction, 1) + "% of its steps";
+  if (!record.targets[group.tracks.front()].identified) text += ", " + trackNames(record, group);
+  return text + "\n";
 }
 
 std::string landmarkLine(const eval::LandmarkEvaluation& l)
@@ -98,8 +106,9 @@ std::string summaryTable(const eval::Record& record, const eval::Evaluation& e, 
   std::string text;
   if (e.robot.all.count > 0) text += errorLine("robot", e.robot.all);
   if (detailed && e.robot.atScans.count > 0) text += errorLine("  at scans", e.robot.atScans);
-  for (const eval::TargetEvaluation& t : e.targets)
-    if (!e.trueTargets.empty()) text += targetLines(t, detailed);
+  if (!e.trueTargets.empty())
+    for (const TargetGroup& group : targetGroups(record, e))
+      text += targetLines(record, group, detailed);
   if (!text.empty()) text = header() + text;
   if (e.robot.all.coverage95 && e.robot.all.neesSkipped > 0)
     text += left("") + "NEES leaves out " + std::to_string(e.robot.all.neesSkipped) +

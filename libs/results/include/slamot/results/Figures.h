@@ -13,6 +13,23 @@ struct RunView
   const eval::Evaluation& evaluation;  ///< of this record against this truth
 };
 
+/// What stands for one thing that moves: a true target with all tracks of it, or, where no target's
+/// truth is known, one track.
+struct TargetGroup
+{
+  std::string name;                 ///< for legends and tables
+  std::optional<int> truthId;       ///< of the true target
+  std::vector<std::size_t> tracks;  ///< places in Record::targets, in order of time
+  const eval::TargetEvaluation* evaluation = nullptr;  ///< over all its tracks; null: no truth
+};
+
+/// All tracks of a run, each in one group; the last may hold those of no true target.  True targets
+/// that were never tracked have a group without tracks.  Must not outlive the evaluation.
+[[nodiscard]] std::vector<TargetGroup> targetGroups(const eval::Record& record,
+                                                    const eval::Evaluation& evaluation);
+/// The tracks of a group: "tracks 0, 3, 4".
+[[nodiscard]] std::string trackNames(const eval::Record& record, const TargetGroup& group);
+
 /// Seen from above, in the map's frame, truth laid over it by the evaluation's alignment: paths of
 /// robot and targets, landmarks with their 95% ellipses, odometry alone.
 [[nodiscard]] Figure mapFigure(const RunView& run);
@@ -20,8 +37,9 @@ struct RunView
 /// Errors of x, y and heading over time, with bounds of three standard deviations; none without
 /// truth.
 [[nodiscard]] std::optional<Figure> robotErrorFigure(const RunView& run);
-/// The same for a target, given by its place in Record::targets.
-[[nodiscard]] std::optional<Figure> targetErrorFigure(const RunView& run, std::size_t target);
+/// The same for the tracks of a true target.
+[[nodiscard]] std::optional<Figure> targetErrorFigure(const RunView& run, const TargetGroup& group,
+                                                      Ink ink);
 
 /// Effective sample size with marks where particles were resampled; none without particles.
 [[nodiscard]] std::optional<Figure> essFigure(const eval::Record& record);
@@ -30,6 +48,6 @@ struct RunView
 /// consistent filter; none without truth.
 [[nodiscard]] std::optional<Figure> neesFigure(const RunView& run);
 
-/// How a target is called in legends and tables.
+/// How a track is called in legends and tables.
 [[nodiscard]] std::string nameOf(const eval::TargetTrack& track);
 }  // namespace slamot::results
