@@ -122,6 +122,24 @@ void expectOneErrorLine(const Outcome& o, int status, const std::string& about)
 }
 }  // namespace
 
+TEST(SlamotRun, MapsMrptsDemoOfKfSlam)
+{
+  const std::string log = "/usr/share/mrpt/datasets/kf-slam_demo.rawlog";
+  if (!fs::exists(log)) GTEST_SKIP() << "mrpt-common is not installed";
+  const Workplace place;
+  const Outcome o = place.slamot(
+      "run '" SLAMOT_SOURCE_DIR "/config-ini/rbpf-slamot.kf-slam-demo.ini' " + log + " -o demo");
+  ASSERT_EQ(o.status, 0) << o.text;
+  const auto summary = place.summary("demo");
+  EXPECT_EQ(summary["landmarks"]["mapped"], 70);
+  EXPECT_EQ(summary["association"]["correct"], 3607 - 70);
+  EXPECT_EQ(summary["association"]["wrong"], 0);
+  const std::string path = place.read("demo/robot.tum");
+  EXPECT_EQ(lines(path), 250u);
+  EXPECT_EQ(path.rfind("0.000000000 ", 0), 0u);
+  EXPECT_NE(path.find("\n24.900000000 "), std::string::npos);
+}
+
 TEST(SlamotRun, WritesAWholeResultFolderWhereItSays)
 {
   const Workplace place;
