@@ -8,6 +8,7 @@
 #include <slamot/results/RunPlan.h>
 #include <slamot/results/StepTimer.h>
 #include <slamot/results/TruthFiles.h>
+#include <slamot/results/hints.h>
 
 #include <cstdio>
 #include <exception>
@@ -68,6 +69,11 @@ std::string configText(const RunCommand& o, const core::Config& config)
   std::string text = "// slamot run config.ini " + o.dataset;
   for (const std::string& plugin : o.common.plugins) text += " --plugin " + plugin;
   return text + "\n\n" + config.effectiveText();
+}
+
+void warn(const std::string& text)
+{
+  std::fprintf(stderr, "slamot: warning: %s\n", text.c_str());
 }
 
 // Why the log ended early, and what was used of it.
@@ -148,7 +154,8 @@ class Run
     };
     results::writeResult(folder_, info, record, evaluation, timing, addPictures);
     if (o_.common.quiet) return;
-    if (!warning.empty()) std::fprintf(stderr, "slamot: warning: %s\n", warning.c_str());
+    if (!warning.empty()) warn(warning);
+    for (const std::string& hint : results::hintsOf(record, plan_.method)) warn(hint);
     std::printf("%s on %s: %zu steps, %zu observations, %.2f s%s\n%s", plan_.method.c_str(),
                 o_.dataset.c_str(), record.steps.size(), record.observations, timing.wallS,
                 record.complete ? "" : ", incomplete",

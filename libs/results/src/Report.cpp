@@ -3,6 +3,7 @@
 #include <slamot/core/version.h>
 #include <slamot/results/HtmlPage.h>
 #include <slamot/results/TextFile.h>
+#include <slamot/results/hints.h>
 
 #include "keyNumbers.h"
 
@@ -89,6 +90,7 @@ std::string writeReport(const std::string& path, const RunInfo& info, const RunV
     page.banner(
         "INCOMPLETE: the run was interrupted, or its input ended too early. All below "
         "stands for the part up to then.");
+  for (const std::string& hint : hintsOf(run.record, info.method)) page.banner("NOTE: " + hint);
   addNumbers(page, run);
   addPlots(page, run);
   page.heading("Settings");
