@@ -23,12 +23,13 @@ struct ImportOptions
   std::string kind, source, output;
   bool quiet = false;
   std::string start = "truth";
+  double startTime = 0;
   importers::MrclamOptions mrclam;
 };
 
 std::unique_ptr<importers::Import> open(const ImportOptions& o)
 {
-  if (o.kind == "csv") return importers::openCsvFolder(o.source);
+  if (o.kind == "csv") return importers::openCsvFolder(o.source, o.startTime);
   importers::MrclamOptions options = o.mrclam;
   options.startFromTruth = o.start == "truth";
   return importers::openMrclam(o.source, options);
@@ -72,7 +73,10 @@ int import(const ImportOptions& o)
   if (!none || fs::exists(truth)) results::saveTruth(truth, source->truth());
   writer.close();
   if (none) truth.clear();
-  if (!o.quiet) report(path, source->counts(), truth);
+  if (o.quiet) return static_cast<int>(ExitStatus::kDone);
+  for (const std::string& warning : source->warnings())
+    std::fprintf(stderr, "slamot: warning: %s\n", warning.c_str());
+  report(path, source->counts(), truth);
   return static_cast<int>(ExitStatus::kDone);
 }
 
@@ -133,16 +137,21 @@ void addMrclamOptions(CLI::App& command, ImportOptions& o)
 }
 
 /// Options of another kind say nothing here: naming them is a mistake.
-void checkKind(const CLI::App& mrclamOptions, const ImportOptions& o)
+void refuseOptions(const CLI::App& group, const std::string& kind)
 {
-  if (o.kind == "mrclam" && mrclamOptions.count("--robot") == 0)
-    throw Error(ExitStatus::kConfig, "command line", "mrclam needs a robot",
-                "add --robot N, 1 to 5");
-  if (o.kind == "mrclam") return;
-  for (const CLI::Option* option : mrclamOptions.get_options())
+  for (const CLI::Option* option : group.get_options())
     if (option->count() > 0)
       throw Error(ExitStatus::kConfig, "command line",
-                  option->get_name() + " is an option of mrclam", "remove it");
+                  option->get_name() + " is an option of " + kind, "remove it");
+}
+
+void checkKind(const CLI::App& csv, const CLI::App& mrclam, const ImportOptions& o)
+{
+  if (o.kind != "csv") refuseOptions(csv, "csv");
+  if (o.kind != "mrclam") refuseOptions(mrclam, "mrclam");
+  if (o.kind == "mrclam" && mrclam.count("--robot") == 0)
+    throw Error(ExitStatus::kConfig, "command line", "mrclam needs a robot",
+                "add --robot N, 1 to 5");
 }
 }  // namespace
 
@@ -166,12 +175,18 @@ void addImport(CLI::App& app, int& status)
       ->required()
       ->type_name("X.rawlog");
   command->add_flag("-q,--quiet", options->quiet, "Errors only");
+  CLI::App* csv = command->add_option_group("csv", "Options of csv");
+  csv->add_option("--start-time", options->startTime,
+                  "When the first step starts [s], for times that count from an epoch")
+      ->check(CLI::Range(0.0, 1e10))
+      ->capture_default_str()
+      ->type_name("T");
   CLI::App* mrclam = command->add_option_group("mrclam", "Options of mrclam");
   addMrclamOptions(*mrclam, *options);
   command->callback(
-      [options, mrclam, &status]
+      [options, csv, mrclam, &status]
       {
-        checkKind(*mrclam, *options);
+        checkKind(*csv, *mrclam, *options);
         status = import(*options);
       });
 }

@@ -147,6 +147,8 @@ TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
          "command line: kind: xml not in {csv,mrclam}; see slamot --help");
   expect("csv drive --robot 1 -o a.rawlog", 1,
          "command line: --robot is an option of mrclam; remove it");
+  expect("mrclam drive --start-time 3 -o a.rawlog", 1,
+         "command line: --start-time is an option of csv; remove it");
   expect("mrclam drive -o a.rawlog", 1,
          "command line: mrclam needs a robot; add --robot N, 1 to 5");
   expect("csv drive -o a.log", 1, "--output a.log: is not named as a rawlog; end it in .rawlog");

@@ -30,8 +30,9 @@ TEST(CsvFaults, OdometryNamesLineAndColumn)
   expectFault(file, head + "1,inf,0,0,0\n", kNonsense, {"line 2", "'inf'"});
   expectFault(file, head + "1,0,0,-0.1,0\n", kNonsense, {"line 2", "std_v", "negative"});
   expectFault(file, head + "2,0,0,0,0\n1,0,0,0,0\n", kNonsense, {"line 3", "backwards"});
-  expectFault(file, head + "-1,0,0,0,0\n", kNonsense, {"line 2", "backwards"});
-  expectFault(file, head + "1248444175,0,0,0,0\n", kNonsense, {"line 2", "over a day"});
+  expectFault(file, head + "-1,0,0,0,0\n", kNonsense, {"line 2", "before the start"});
+  expectFault(file, head + "1248444175,0,0,0,0\n", kNonsense,
+              {"line 2", "over a day", "--start-time"});
   expectFault(file, head + "1,1e300,0,0,0\n", kNonsense, {"line 2", "'1e300'"});
   expectFault(file, head + "1,0,0,0\n", kBad, {"line 2", "4 columns instead of 5"});
   expectFault(file, head + "0,5,0,0,0,0\n", kBad, {"line 2", "'.' as decimal point"});

@@ -91,6 +91,37 @@ TEST(CsvFolder, RowAtTheStartEndsNoStep)
   EXPECT_EQ(importCsv(folder).at(0).odometry->mean.x, 1);
 }
 
+TEST(CsvFolder, TimesOfAnEpochNeedTheirStart)
+{
+  const TemporaryFolder folder;
+  folder.write("odometry.csv",
+               kOdometryHeader + "1700000000.5,2,0,0.1,0.1\n1700000001,2,0,0.1,0.1\n");
+  folder.write("blobs.csv", kBlobsHeader + "1700000000,target,2,0,0.1,0.1,1\n");
+  const auto import = openCsvFolder(folder.file(""), 1700000000);
+  EXPECT_EQ(import->starts().time, 1700000000.0);
+  const auto steps = stepsOf(*import);
+  ASSERT_EQ(steps.size(), 3u) << "what is seen at the start makes a step without odometry";
+  EXPECT_EQ(steps[1].time, 1700000000.5);
+  EXPECT_NEAR(steps[1].odometry->mean.x, 1, 1e-9);
+  EXPECT_EQ(import->counts().end - import->counts().start, 1);
+  EXPECT_TRUE(import->warnings().empty());
+}
+
+TEST(CsvFolder, WarnsOfAFirstStepThatIsFarLonger)
+{
+  const TemporaryFolder folder;
+  folder.write("odometry.csv", kOdometryHeader + "12.1,1,0,0,0\n12.2,1,0,0,0\n12.3,1,0,0,0\n");
+  auto import = openCsvFolder(folder.file(""));
+  stepsOf(*import);
+  ASSERT_EQ(import->warnings().size(), 1u);
+  EXPECT_NE(import->warnings()[0].find("lasts 12.1 s, from 0 s on, the second 0.1 s"),
+            std::string::npos)
+      << import->warnings()[0];
+  import = openCsvFolder(folder.file(""), 12);
+  stepsOf(*import);
+  EXPECT_TRUE(import->warnings().empty());
+}
+
 TEST(CsvFolder, EmptyScansAreKept)
 {
   const TemporaryFolder folder;

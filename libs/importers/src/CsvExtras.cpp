@@ -110,7 +110,6 @@ core::FieldOfView readFov(const std::string& folder)
 core::Starts readStarts(const std::string& folder)
 {
   core::Starts starts;
-  starts.time = 0;
   const std::string path = folder + "/start.csv";
   if (!exists(path)) return starts;
   TextTable table = TextTable::csv(path);

@@ -2,6 +2,7 @@
 #include <slamot/importers/CsvFolder.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <deque>
 #include <filesystem>
 
@@ -18,14 +19,15 @@ constexpr double kSameTime = 1e-6;  // [s]
 class CsvFolder : public Import
 {
  public:
-  explicit CsvFolder(const std::string& folder)
-      : odometry_(folder),
+  CsvFolder(const std::string& folder, double startTime)
+      : odometry_(folder, startTime),
         starts_(readStarts(folder)),
         truth_(readTruth(folder)),
-        sensors_(openSensors(folder, readFov(folder), seen_))
+        sensors_(openSensors(folder, startTime, readFov(folder), seen_))
   {
+    starts_.time = counts_.start = startTime;
     // What was seen before the robot moved makes a step of its own.
-    if (auto step = sensed(0)) steps_.push_back(std::move(*step));
+    if (auto step = sensed(startTime)) steps_.push_back(std::move(*step));
   }
 
   std::optional<core::Step> next() override
@@ -38,6 +40,7 @@ class CsvFolder : public Import
         finish();
         return std::nullopt;
       }
+      checkFirst(*motion);
       cut(*motion);
     }
     core::Step step = std::move(steps_.front());
@@ -91,6 +94,22 @@ class CsvFolder : public Import
     steps_.push_back(std::move(step));
   }
 
+  /// Warns of a first step that holds a velocity for far longer than the second: a clock that did
+  /// not start with the drive.
+  void checkFirst(const OdometryStep& odometry)
+  {
+    const double duration = odometry.end - odometry.begin;
+    if (++odometrySteps_ == 1) firstDuration_ = duration;
+    if (odometrySteps_ != 2 || firstDuration_ < 1 || firstDuration_ < 10 * duration) return;
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "odometry.csv: the first step lasts %.6g s, from %.10g s on, the second %.6g s; if "
+        "the drive began later, give --start-time",
+        firstDuration_, starts_.time.value_or(0), duration);
+    warnings_.emplace_back(text);
+  }
+
   /// Reads what is left, so that its faults are found, and settles the truth.
   void finish()
   {
@@ -114,15 +133,17 @@ class CsvFolder : public Import
   Associations seen_;
   std::vector<std::unique_ptr<SensorRows>> sensors_;
   std::deque<core::Step> steps_;
+  std::size_t odometrySteps_ = 0;
+  double firstDuration_ = 0;  // [s]
 };
 }  // namespace
 
-std::unique_ptr<Import> openCsvFolder(const std::string& folder)
+std::unique_ptr<Import> openCsvFolder(const std::string& folder, double startTime)
 {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
     throw core::Error(core::ExitStatus::kUnreadable, folder, "is not a folder",
                       "give a folder with an odometry.csv");
-  return std::make_unique<CsvFolder>(folder);
+  return std::make_unique<CsvFolder>(folder, startTime);
 }
 }  // namespace slamot::importers

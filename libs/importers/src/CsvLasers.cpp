@@ -15,7 +15,7 @@ bool isInfinite(std::string_view s)
 class LaserRows : public SensorRows
 {
  public:
-  explicit LaserRows(const std::string& path) : SensorRows(TextTable::csv(path))
+  LaserRows(const std::string& path, double startTime) : SensorRows(TextTable::csv(path), startTime)
   {
     TextTable::Names wanted = {"t", "angle_min", "angle_step", "range_max", "r0"};
     for (std::size_t i = wanted.size(); i < table_.header().size(); ++i)
@@ -50,8 +50,8 @@ class LaserRows : public SensorRows
 };
 }  // namespace
 
-std::unique_ptr<SensorRows> laserRows(const std::string& path)
+std::unique_ptr<SensorRows> laserRows(const std::string& path, double startTime)
 {
-  return std::make_unique<LaserRows>(path);
+  return std::make_unique<LaserRows>(path, startTime);
 }
 }  // namespace slamot::importers

@@ -9,12 +9,15 @@ using core::ExitStatus;
 const TextTable::Names kVelocities = {"t", "v", "omega", "std_v", "std_omega"};
 const TextTable::Names kIncrements = {"t", "dx", "dy", "dphi", "std_x", "std_y", "std_phi"};
 
+constexpr const char* kMendStart =
+    "times count in seconds from the start, 0; if they count from an epoch, give --start-time";
+
 // A day without odometry is a clock that doesn't start at 0.
 constexpr double kLongestStep = 86400;  // [s]
 }  // namespace
 
-CsvOdometry::CsvOdometry(const std::string& folder)
-    : table_(TextTable::csv(folder + "/odometry.csv"))
+CsvOdometry::CsvOdometry(const std::string& folder, double startTime)
+    : table_(TextTable::csv(folder + "/odometry.csv")), start_(startTime)
 {
   velocities_ = table_.matchHeader({kVelocities, kIncrements}) == 0;
   ahead_ = read();
@@ -26,11 +29,12 @@ bool CsvOdometry::read()
   if (!table_.next()) return false;
   time_ = table_.number(0);
   if (time_ < last_)
-    table_.failAt(0, ExitStatus::kNonsense, "the time goes backwards",
-                  "sort the rows by time; times count from the start, 0");
+    table_.failAt(0, ExitStatus::kNonsense,
+                  last_ == start_ ? "the time lies before the start" : "the time goes backwards",
+                  last_ == start_ ? kMendStart : "sort the rows by time");
   if (time_ - last_ > kLongestStep)
     table_.failAt(0, ExitStatus::kNonsense, "the step lasts over a day",
-                  "times count in seconds from the start, 0");
+                  last_ == start_ ? kMendStart : "remove rows of another day");
   return true;
 }
 

@@ -16,7 +16,7 @@ struct OdometryStep
 class CsvOdometry
 {
  public:
-  explicit CsvOdometry(const std::string& folder);
+  CsvOdometry(const std::string& folder, double startTime);
 
   /// The next step; rows of equal time make one.
   std::optional<OdometryStep> next();
@@ -30,6 +30,6 @@ class CsvOdometry
   TextTable table_;
   bool velocities_ = false;
   bool ahead_ = false;  // whether the table stands at a row not yet used
-  double last_ = 0, time_ = 0;
+  double start_, last_ = start_, time_ = start_;
 };
 }  // namespace slamot::importers

@@ -19,8 +19,10 @@ void SensorRows::advance()
   if (!table_.next()) return;
   const double time = table_.number(0);
   if (time < last_)
-    table_.failAt(0, core::ExitStatus::kNonsense, "the time goes backwards",
-                  "sort the rows by time; times count from the start, 0");
+    table_.failAt(0, core::ExitStatus::kNonsense,
+                  last_ == start_ ? "the time lies before the start" : "the time goes backwards",
+                  last_ == start_ ? "times count from the start: 0, or --start-time"
+                                  : "sort the rows by time");
   last_ = time;
   time_ = time;
 }
@@ -31,16 +33,16 @@ void SensorRows::take(core::Step& step, Counts& counts)
   advance();
 }
 
-std::vector<std::unique_ptr<SensorRows>> openSensors(const std::string& folder,
+std::vector<std::unique_ptr<SensorRows>> openSensors(const std::string& folder, double startTime,
                                                      const core::FieldOfView& fov,
                                                      Associations& associations)
 {
   std::vector<std::unique_ptr<SensorRows>> out;
   const std::string sightings = folder + "/landmark_sightings.csv", blobs = folder + "/blobs.csv",
                     lasers = folder + "/scans.csv";
-  if (exists(sightings)) out.push_back(sightingRows(sightings, fov, associations));
-  if (exists(blobs)) out.push_back(blobRows(blobs, fov));
-  if (exists(lasers)) out.push_back(laserRows(lasers));
+  if (exists(sightings)) out.push_back(sightingRows(sightings, startTime, fov, associations));
+  if (exists(blobs)) out.push_back(blobRows(blobs, startTime, fov));
+  if (exists(lasers)) out.push_back(laserRows(lasers, startTime));
   return out;
 }
 }  // namespace slamot::importers

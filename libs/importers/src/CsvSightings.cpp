@@ -40,8 +40,9 @@ bool inView(const core::FieldOfView& fov, const Polar& p)
 class SightingRows : public SensorRows
 {
  public:
-  SightingRows(const std::string& path, const core::FieldOfView& fov, Associations& associations)
-      : SensorRows(TextTable::csv(path)), fov_(fov), associations_(&associations)
+  SightingRows(const std::string& path, double startTime, const core::FieldOfView& fov,
+               Associations& associations)
+      : SensorRows(TextTable::csv(path), startTime), fov_(fov), associations_(&associations)
   {
     table_.matchHeader({{"t", "range", "bearing", "std_range", "std_bearing", "id"}});
     advance();
@@ -72,8 +73,8 @@ class SightingRows : public SensorRows
 class BlobRows : public SensorRows
 {
  public:
-  BlobRows(const std::string& path, const core::FieldOfView& fov)
-      : SensorRows(TextTable::csv(path)), fov_(fov)
+  BlobRows(const std::string& path, double startTime, const core::FieldOfView& fov)
+      : SensorRows(TextTable::csv(path), startTime), fov_(fov)
   {
     table_.matchHeader({{"t", "label", "range", "bearing", "std_range", "std_bearing", "id"}});
     advance();
@@ -112,14 +113,15 @@ class BlobRows : public SensorRows
 
 }  // namespace
 
-std::unique_ptr<SensorRows> sightingRows(const std::string& path, const core::FieldOfView& fov,
-                                         Associations& associations)
+std::unique_ptr<SensorRows> sightingRows(const std::string& path, double startTime,
+                                         const core::FieldOfView& fov, Associations& associations)
 {
-  return std::make_unique<SightingRows>(path, fov, associations);
+  return std::make_unique<SightingRows>(path, startTime, fov, associations);
 }
 
-std::unique_ptr<SensorRows> blobRows(const std::string& path, const core::FieldOfView& fov)
+std::unique_ptr<SensorRows> blobRows(const std::string& path, double startTime,
+                                     const core::FieldOfView& fov)
 {
-  return std::make_unique<BlobRows>(path, fov);
+  return std::make_unique<BlobRows>(path, startTime, fov);
 }
 }  // namespace slamot::importers

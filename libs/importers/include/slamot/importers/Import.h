@@ -25,11 +25,14 @@ class Import : public core::Source
   /// Complete once next() has delivered the last step.
   [[nodiscard]] virtual const eval::Truth& truth() const = 0;
   [[nodiscard]] const Counts& counts() const { return counts_; }
+  /// What looks wrong though it has a meaning, one sentence each; complete after the last step.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  protected:
   /// Counts a step that next() is about to deliver.
   core::Step deliver(core::Step step);
 
   Counts counts_;
+  std::vector<std::string> warnings_;
 };
 }  // namespace slamot::importers
