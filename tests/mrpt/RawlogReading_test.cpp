@@ -15,6 +15,7 @@
 #include <slamot/core/Error.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "bytes.h"
 #include "exampleLog.h"
@@ -635,6 +636,32 @@ TEST(RawlogReading, MrptsDemoLogsGiveTheStepsThatItsProgramsSee)
     EXPECT_EQ(lasers, demo.lasers) << demo.file;
     EXPECT_EQ(source.dropped(), 0u) << demo.file;
   }
+}
+
+TEST(RawlogReading, TheTimeOfWhoUsesTheStepsIsNotTheReaders)
+{
+  const auto secondsOfCpu = []
+  {
+    timespec t{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  std::vector<core::Step> steps(4000);  // more than is read ahead at once
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    steps[i] = exampleSteps()[1];
+    steps[i].time = 0.1 * static_cast<double>(i + 1);
+  }
+  const TemporaryFolder folder;
+  RawlogSource source(writeLog(folder, mrpt::RawlogWriter::Format::kActionFrames, steps, {}), {});
+  ASSERT_TRUE(source.next());
+  const double start = secondsOfCpu();
+  while (secondsOfCpu() < start + 5.2)  // a slow filter: more than reading may take
+  {
+  }
+  std::size_t n = 1;
+  while (source.next()) ++n;
+  EXPECT_EQ(n, steps.size());
 }
 }  // namespace
 }  // namespace slamot::tests

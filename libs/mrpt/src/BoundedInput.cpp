@@ -28,7 +28,16 @@ double cpuSeconds()
 }
 }  // namespace
 
-BoundedInput::BoundedInput(const std::string& path) : path_(path), startSeconds_(cpuSeconds())
+BoundedInput::Working::Working(BoundedInput& input) : input_(input)
+{
+  input_.workingSince_ = cpuSeconds();
+}
+BoundedInput::Working::~Working()
+{
+  input_.spentSeconds_ += cpuSeconds() - input_.workingSince_;
+}
+
+BoundedInput::BoundedInput(const std::string& path) : path_(path)
 {
   struct stat info = {};
   if (::stat(path.c_str(), &info) != 0)
@@ -101,7 +110,7 @@ void BoundedInput::checkLimits() const
                 "unpacks to over " + std::to_string(unpacked_ >> 20) + " MB, far beyond its size",
                 "unpack it with gunzip first, if it is sound");
   const double share = static_cast<double>(size_) / static_cast<double>(kSizeOfBudget);
-  if (cpuSeconds() - startSeconds_ > kMostSeconds * std::max(1.0, share))
+  if (spentSeconds_ + cpuSeconds() - workingSince_ > kMostSeconds * std::max(1.0, share))
     throw Error(ExitStatus::kLimit, path_, "takes too long to read",
                 "split it with rawlog-edit --cut");
 }

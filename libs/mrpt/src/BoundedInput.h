@@ -16,7 +16,20 @@ class BoundedInput
   // Rawlogs shrink by 2 to 5, a single scan of a spinning laser by 33.
   static constexpr std::uint64_t kMostUnpacked = 128u << 20;  ///< [byte], and ...
   static constexpr std::uint64_t kMostUnpackedRatio = 20;  ///< ... this many times the file's size
-  static constexpr double kMostSeconds = 5;                ///< of this thread's CPU, per 50 MB
+  static constexpr double kMostSeconds = 5;                ///< of CPU while Working, per 50 MB
+
+  /// While one lives, its thread's CPU time counts as spent on this input.
+  class Working
+  {
+   public:
+    explicit Working(BoundedInput& input);
+    ~Working();
+    Working(const Working&) = delete;
+    Working& operator=(const Working&) = delete;
+
+   private:
+    BoundedInput& input_;
+  };
 
   /// \throws core::Error (kUnreadable): not a file that can be read, or empty.
   explicit BoundedInput(const std::string& path);
@@ -42,7 +55,7 @@ class BoundedInput
 
   std::string path_;
   std::uint64_t size_ = 0, unpacked_ = 0;
-  double startSeconds_ = 0;
+  double spentSeconds_ = 0, workingSince_ = 0;
   bool truncated_ = false;
   gzFile_s* file_ = nullptr;
 };

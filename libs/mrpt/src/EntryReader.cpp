@@ -20,6 +20,7 @@ constexpr std::size_t kRead = 1u << 17;  // [byte] at a time, or more where an e
 
 std::optional<Entry> EntryReader::next()
 {
+  const BoundedInput::Working working(input_);  // what a filter does between entries is not reading
   if (begin_ == end_ && !grow())
   {
     if (input_.truncated())
