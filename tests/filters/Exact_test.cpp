@@ -1,3 +1,4 @@
+#include "LinearSighting.h"
 #include "filterRig.h"
 
 #include <slamot/math/random.h>
@@ -48,7 +49,7 @@ struct LandmarkEkf
 {
   Vector2 x;
   Matrix2 P;
-  int sightings = 0;
+  int sightings = 0, near = 0;
   void see(const Pose2D& pose, const Vector2& z, const RangeBearing& model)
   {
     if (sightings++ == 0)
@@ -59,11 +60,40 @@ struct LandmarkEkf
       P = J * model.noise() * J.transpose();
       return;
     }
-    const Point2D m{x[0], x[1]};
-    const Matrix2 H = RangeBearing::jacobians(pose, m).point;
-    const Matrix2 K = P * H.transpose() * (H * P * H.transpose() + model.noise()).inverse();
-    x += K * RangeBearing::residual(z, RangeBearing::predict(pose, m));
-    P = ((Matrix2::Identity() - K * H) * P).eval();
+    const auto l = test::linearise(pose, {x[0], x[1]}, P, z, model);
+    const Matrix2 K = P * l.byPoint.transpose() * l.S(P).inverse();
+    x += K * l.nu;
+    P = ((Matrix2::Identity() - K * l.byPoint) * P).eval();
+    near += l.near;
+  }
+};
+
+/// The target's filter of Wu and Sun 2013, (13) to (18) as corrected: three states, with v and
+/// omega known.
+struct TargetEkf
+{
+  Vector3 x;
+  Matrix3 P;
+  void predict(double v, double w, double stdV, double stdW, double dt)
+  {
+    const double a = x[2] + w * dt, c = std::cos(a), s = std::sin(a);
+    x += Vector3(v * dt * c, v * dt * s, w * dt);
+    Matrix3 F;
+    F << 1, 0, -v * dt * s, 0, 1, v * dt * c, 0, 0, 1;
+    Eigen::Matrix<double, 3, 2> G;
+    G << dt * c, -v * dt * dt * s, dt * s, v * dt * dt * c, 0, dt;
+    const Matrix2 Q = Vector2(stdV * stdV, stdW * stdW).asDiagonal();
+    P = (F * P * F.transpose() + G * Q * G.transpose()).eval();
+  }
+  [[nodiscard]] Point2D point() const { return {x[0], x[1]}; }
+  [[nodiscard]] Matrix2 pointCov() const { return P.topLeftCorner<2, 2>(); }
+  void see(const test::LinearSighting& l)
+  {
+    Eigen::Matrix<double, 2, 3> H = Eigen::Matrix<double, 2, 3>::Zero();
+    H.leftCols<2>() = l.byPoint;
+    const Eigen::Matrix<double, 3, 2> K = P * H.transpose() * l.S(pointCov()).inverse();
+    x += K * l.nu;
+    P = ((Matrix3::Identity() - K * H) * P).eval();
   }
 };
 }  // namespace
@@ -71,7 +101,6 @@ struct LandmarkEkf
 TEST_P(Proposal, OneParticleWithExactOdometryIsAnEkfPerLandmark)
 {
   RandomStream random{1};
-  const RangeBearing model(0.15, 0.03);
   Pose2D pose{2, -1, 3};
   const auto filter = makeFilter("rbpf-slamot", keys(GetParam()) + kDamped, at(pose));
   std::vector<Point2D> truth;
@@ -86,10 +115,12 @@ TEST_P(Proposal, OneParticleWithExactOdometryIsAnEkfPerLandmark)
     step.landmarks.emplace();
     for (std::size_t k = 0; k < truth.size(); ++k)
     {
-      const Vector2 z = noisy(RangeBearing::predict(pose, truth[k]), 0.15, 0.03, random);
-      if (z[0] < 0.5 || random.uniform() < 0.3) continue;
-      step.landmarks->sightings.push_back({z[0], z[1], 0.15, 0.03, static_cast<int>(k)});
-      ekf[k].see(pose, z, model);
+      // Half of them by a coarse range: then many are near in terms of their deviations.
+      const double rangeStd = k % 2 ? 1.0 : 0.15;
+      const Vector2 z = noisy(RangeBearing::predict(pose, truth[k]), rangeStd, 0.03, random);
+      if (z[0] < 0.1 || random.uniform() < 0.3) continue;
+      step.landmarks->sightings.push_back({z[0], z[1], rangeStd, 0.03, static_cast<int>(k)});
+      ekf[k].see(pose, z, {rangeStd, 0.03});
     }
     const core::Estimate e = filter->process(step).estimate;
     ASSERT_NEAR(e.robot.mean.x, pose.x, 1e-9);
@@ -105,29 +136,33 @@ TEST_P(Proposal, OneParticleWithExactOdometryIsAnEkfPerLandmark)
     }
   }
   EXPECT_EQ(landmarks(filter->estimate()).size(), truth.size());
+  int seen = 0, near = 0;
+  for (const LandmarkEkf& l : ekf) seen += l.sightings, near += l.near;
+  EXPECT_GT(near, 150);
+  EXPECT_GT(seen - near, 400);
 }
 
-// The target's filter of Wu and Sun 2013, (13) to (18) as corrected, three states with v and omega
-// known.
-TEST_P(Proposal, OneParticleWithExactOdometryIsThePapersTargetEkf)
+// Sightings of a target that is always far, or always near, in terms of its deviations.
+static void expectThePapersTargetEkf(const std::string& proposal, const RangeBearing& model,
+                                     bool near)
 {
   constexpr double v = 1.5, w = 0.4, dt = 0.1, stdV = 0.3, stdW = 0.2;
   RandomStream random{2};
-  const RangeBearing model(0.1, 0.02);
+  const double rangeStd = std::sqrt(model.noise()(0, 0)),
+               bearingStd = std::sqrt(model.noise()(1, 1));
   core::FilterContext context = at({0, 0, 0});
   core::ObjectStart& start = context.starts.targets[7];
-  start.value = {3.0, 1.0, 0.5};
-  start.std = {0.2, 0.3, 0.1};
+  start.value = {8.0, 1.0, 0.5};
+  start.std = {0.1, 0.15, 0.1};
   const auto filter = makeFilter("rbpf-slamot",
-                                 keys(GetParam()) +
+                                 keys(proposal) +
                                      "target_motion = differential-drive\ntarget_speed_mps = 1.5\n"
                                      "target_turn_rate_deg_per_s = 22.918311805232928\n"
                                      "target_speed_noise_mps = 0.3\n"
                                      "target_turn_rate_noise_deg_per_s = 11.459155902616464\n",
                                  context);
-  Pose2D pose, target{3.1, 0.8, 0.55};
-  Vector3 x(3, 1, 0.5);
-  Matrix3 P = Vector3(0.04, 0.09, 0.01).asDiagonal();
+  Pose2D pose, target{8.1, 0.8, 0.55};
+  TargetEkf ekf{{8, 1, 0.5}, Vector3(0.01, 0.0225, 0.01).asDiagonal()};
   for (int i = 1; i <= 100; ++i)
   {
     core::Step step;
@@ -137,34 +172,37 @@ TEST_P(Proposal, OneParticleWithExactOdometryIsThePapersTargetEkf)
     target = math::compose(
         target,
         math::turnThenMove(v + stdV * random.normal(), w + stdW * random.normal(), dt, 0, 0).mean);
-    const double a = x[2] + w * dt, c = std::cos(a), s = std::sin(a);
-    x += Vector3(v * dt * c, v * dt * s, w * dt);
-    Matrix3 F;
-    F << 1, 0, -v * dt * s, 0, 1, v * dt * c, 0, 0, 1;
-    Eigen::Matrix<double, 3, 2> G;
-    G << dt * c, -v * dt * dt * s, dt * s, v * dt * dt * c, 0, dt;
-    P = (F * P * F.transpose() + G * Vector2(stdV * stdV, stdW * stdW).asDiagonal() * G.transpose())
-            .eval();
+    ekf.predict(v, w, stdV, stdW, dt);
     if (i % 4 == 0)
     {
-      const Vector2 z = noisy(RangeBearing::predict(pose, {target.x, target.y}), 0.1, 0.02, random);
-      step.blobs.emplace().blobs.push_back({"target", z[0], z[1], 0.1, 0.02, 7});
-      Eigen::Matrix<double, 2, 3> H = Eigen::Matrix<double, 2, 3>::Zero();
-      H.leftCols<2>() = RangeBearing::jacobians(pose, {x[0], x[1]}).point;
-      const Eigen::Matrix<double, 3, 2> K =
-          P * H.transpose() * (H * P * H.transpose() + model.noise()).inverse();
-      x += K * RangeBearing::residual(z, RangeBearing::predict(pose, {x[0], x[1]}));
-      P = ((Matrix3::Identity() - K * H) * P).eval();
+      const Vector2 z =
+          noisy(RangeBearing::predict(pose, {target.x, target.y}), rangeStd, bearingStd, random);
+      ASSERT_GT(z[0], 0);
+      step.blobs.emplace().blobs.push_back({"target", z[0], z[1], rangeStd, bearingStd, 7});
+      const Point2D m = ekf.point();
+      ASSERT_EQ(test::linearise(pose, m, ekf.pointCov(), z, model).near, near);
+      ekf.see(near ? test::inRaysFrame(pose, m, z, model) : test::inPolar(pose, m, z, model));
     }
     const core::Estimate e = filter->process(step).estimate;
     ASSERT_EQ(e.targets.size(), 1u);
     const auto& got = e.targets[0].pose;
-    ASSERT_NEAR(got.mean.x, x[0], 1e-9);
-    ASSERT_NEAR(got.mean.y, x[1], 1e-9);
-    ASSERT_NEAR(math::wrapToPi(got.mean.phi - x[2]), 0, 1e-9);
-    ASSERT_LE((got.cov - P).norm(), 1e-9 * P.norm());
+    ASSERT_NEAR(got.mean.x, ekf.x[0], 1e-9);
+    ASSERT_NEAR(got.mean.y, ekf.x[1], 1e-9);
+    ASSERT_NEAR(math::wrapToPi(got.mean.phi - ekf.x[2]), 0, 1e-9);
+    ASSERT_LE((got.cov - ekf.P).norm(), 1e-9 * ekf.P.norm());
     ASSERT_EQ(e.targets[0].id, 7);
   }
+}
+
+TEST_P(Proposal, OneParticleWithExactOdometryIsThePapersTargetEkf)
+{
+  expectThePapersTargetEkf(GetParam(), {0.1, 0.02}, false);
+}
+
+// Equation (18)'s innovation then is the ray's; all else is the paper's.
+TEST_P(Proposal, OneParticleWithExactOdometryIsATargetEkfAlongTheRayNearBy)
+{
+  expectThePapersTargetEkf(GetParam(), {1.5, 0.02}, true);
 }
 
 // Sightings far better than odometry leave nothing to chance: the pose is where they say.

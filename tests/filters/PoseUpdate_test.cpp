@@ -1,5 +1,7 @@
 #include "rbpf/PoseUpdate.h"
 
+#include "LinearSighting.h"
+
 #include <gtest/gtest.h>
 #include <slamot/math/gaussian.h>
 #include <slamot/math/random.h>
@@ -41,30 +43,35 @@ struct Dense
   double atPrior = 0;  // log likelihood of the sightings if the pose were the prior's mean
 };
 
+/// Landmarks near by and far away in turn.
 Dense draw(RandomStream& random, int landmarks, const Matrix3& P0, PoseUpdate& update)
 {
+  const RangeBearing model(0.1, 0.02);
   Dense d(landmarks);
   d.P.topLeftCorner<3, 3>() = P0;
   const Pose2D x0{1, -2, random.uniform(-3, 3)};
   for (int i = 0; i < landmarks; ++i)
   {
-    const Point2D m{x0.x + random.uniform(-6, 6), x0.y + random.uniform(-6, 6)};
+    const bool near = i % 2 == 0;
+    const double r = near ? random.uniform(0.05, 1.9) : random.uniform(2, 8);
+    const double a = random.uniform(-3, 3);
+    const Point2D m{x0.x + r * std::cos(a), x0.y + r * std::sin(a)};
     const double c = random.uniform(-0.9, 0.9) * 0.02;
     const Matrix2 C = (Matrix2() << 0.02, c, c, 0.03).finished();
-    const Vector2 z =
-        RangeBearing::predict(x0, m) + Vector2(0.1 * random.normal(), 0.05 * random.normal());
+    const Vector2 error(0.1 * random.normal(), 0.05 * random.normal());
+    const Vector2 z = (RangeBearing::predict(x0, m) + error).cwiseMax(Vector2(0.01, -10));
     Innovation o{};
     EXPECT_TRUE(
         innovate(Eye(x0), Ray::of(z[0], z[1], 0.1, 0.02), m.x, m.y, C(0, 0), c, C(1, 1), o));
     update.add(o);
-    const auto J = RangeBearing::jacobians(x0, m);
+    const auto s = test::linearise(x0, m, C, z, model);
+    EXPECT_EQ(s.near, near);
     d.P.block<2, 2>(3 + 2 * i, 3 + 2 * i) = C;
-    d.H.block<2, 3>(2 * i, 0) = J.pose;
-    d.H.block<2, 2>(2 * i, 3 + 2 * i) = J.point;
-    d.R.block<2, 2>(2 * i, 2 * i) = RangeBearing(0.1, 0.02).noise();
-    d.nu.segment<2>(2 * i) << o.nuR, o.nuB;
-    d.atPrior += logNormal(d.nu.segment<2>(2 * i),
-                           J.point * C * J.point.transpose() + RangeBearing(0.1, 0.02).noise());
+    d.H.block<2, 3>(2 * i, 0) = s.byPose;
+    d.H.block<2, 2>(2 * i, 3 + 2 * i) = s.byPoint;
+    d.R.block<2, 2>(2 * i, 2 * i) = s.R;
+    d.nu.segment<2>(2 * i) = s.nu;
+    d.atPrior += logNormal(s.nu, s.S(C));
   }
   return d;
 }

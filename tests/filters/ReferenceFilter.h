@@ -1,5 +1,6 @@
 #pragma once
 
+#include "LinearSighting.h"
 #include "rbpf/Matching.h"
 
 #include <slamot/core/Step.h>
@@ -43,6 +44,7 @@ class ReferenceFilter
 
   std::vector<Particle> particles;
   Gaussian<Pose2D> pending;  ///< odometry since poses were last sampled
+  int near = 0, far = 0;     ///< paired sightings by their coordinates
 
   /// \param priors the poses before the scan, \param poses those after it.
   void scan(const core::LandmarkScan& scan, const std::vector<Pose2D>& priors,
@@ -66,26 +68,11 @@ class ReferenceFilter
   using RangeBearing = models::RangeBearing;
   static constexpr std::int32_t kNew = filters::rbpf::kNew, kRejected = filters::rbpf::kRejected;
 
-  struct Seen  // one sighting of one landmark from a pose
+  /// One sighting of one landmark from a pose.
+  static LinearSighting seen(const Pose2D& pose, const Mark& m, const core::Sighting& s)
   {
-    Seen(const Pose2D& pose, const Mark& m, const core::Sighting& s)
-    {
-      const Point2D at{m.x[0], m.x[1]};
-      nu = RangeBearing::residual({s.range, s.bearing}, RangeBearing::predict(pose, at));
-      const auto J = RangeBearing::jacobians(pose, at);
-      byPose = J.pose;
-      byPoint = J.point;
-      R = RangeBearing(s.rangeStd, s.bearingStd).noise();
-      S = byPoint * m.P * byPoint.transpose() + R;
-    }
-    [[nodiscard]] Matrix2 withPose(const Matrix3& P) const
-    {
-      return S + byPose * P * byPose.transpose();
-    }
-    Vector2 nu;
-    Eigen::Matrix<double, 2, 3> byPose;
-    Matrix2 byPoint, R, S;
-  };
+    return linearise(pose, {m.x[0], m.x[1]}, m.P, {s.range, s.bearing}, {s.rangeStd, s.bearingStd});
+  }
 
   void match(Particle& p, const core::LandmarkScan& scan) const
   {
@@ -96,9 +83,9 @@ class ReferenceFilter
       {
         const core::Sighting& s = scan.sightings[j];
         if (settings_.knownIds && p.map[k].id != s.id) continue;
-        const Seen seen(p.belief.mean, p.map[k], s);
-        const Matrix2 S = seen.withPose(p.belief.cov);
-        const double d2 = seen.nu.dot(S.inverse() * seen.nu);
+        const LinearSighting l = seen(p.belief.mean, p.map[k], s);
+        const Matrix2 S = l.S(p.map[k].P) + l.byPose * p.belief.cov * l.byPose.transpose();
+        const double d2 = l.nu.dot(S.inverse() * l.nu);
         if (settings_.knownIds)
           p.matches[j] = d2 <= settings_.outer ? static_cast<std::int32_t>(k) : kRejected;
         else if (d2 <= settings_.outer)
@@ -109,7 +96,7 @@ class ReferenceFilter
   }
 
   /// All paired sightings as one vector: its density, and what it tells of the pose.
-  void weigh(Particle& p, const core::LandmarkScan& scan) const
+  void weigh(Particle& p, const core::LandmarkScan& scan)
   {
     const auto paired =
         std::count_if(p.matches.begin(), p.matches.end(), [](auto m) { return m >= 0; });
@@ -122,12 +109,13 @@ class ReferenceFilter
     for (std::size_t j = 0; j < p.matches.size(); ++j)
     {
       if (p.matches[j] < 0) continue;
-      const Seen seen(p.belief.mean, p.map[static_cast<std::size_t>(p.matches[j])],
-                      scan.sightings[j]);
-      nu.segment<2>(at) = seen.nu;
-      H.middleRows<2>(at) = seen.byPose;
-      S.block<2, 2>(at, at) = seen.S;
+      const Mark& m = p.map[static_cast<std::size_t>(p.matches[j])];
+      const LinearSighting l = seen(p.belief.mean, m, scan.sightings[j]);
+      nu.segment<2>(at) = l.nu;
+      H.middleRows<2>(at) = l.byPose;
+      S.block<2, 2>(at, at) = l.S(m.P);
       at += 2;
+      ++(l.near ? near : far);
     }
     S += H * p.belief.cov * H.transpose();
     const Eigen::MatrixXd K = p.belief.cov * H.transpose() * S.inverse();
@@ -156,11 +144,11 @@ class ReferenceFilter
         continue;
       }
       Mark& m = p.map[static_cast<std::size_t>(p.matches[j])];
-      const Seen seen(p.pose, m, s);
-      const Matrix2 K = m.P * seen.byPoint.transpose() * seen.S.inverse();
-      const Matrix2 I = Matrix2::Identity() - K * seen.byPoint;
-      m.x += K * seen.nu;
-      m.P = (I * m.P * I.transpose() + K * seen.R * K.transpose()).eval();
+      const LinearSighting l = seen(p.pose, m, s);
+      const Matrix2 K = m.P * l.byPoint.transpose() * l.S(m.P).inverse();
+      const Matrix2 I = Matrix2::Identity() - K * l.byPoint;
+      m.x += K * l.nu;
+      m.P = (I * m.P * I.transpose() + K * l.R * K.transpose()).eval();
       ++m.sightings;
     }
   }

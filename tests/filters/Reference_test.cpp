@@ -99,6 +99,8 @@ class SideBySide
     }
     return sum;
   }
+  [[nodiscard]] int near() const { return reference_.near; }
+  [[nodiscard]] int far() const { return reference_.far; }
   [[nodiscard]] bool resampled() const { return update_.diagnostics.resampled; }
   int known = 0, fresh = 0, rejected = 0;  // outcomes over all particles
 
@@ -121,10 +123,12 @@ class SideBySide
     for (std::size_t i = 0; i < marks_.size(); ++i)
     {
       Vector2 z = RangeBearing::predict(truth_, marks_[i]);
-      z += Vector2(kRangeStd * random_.normal(), kBearingStd * random_.normal());
-      if (z[0] < 0.5 || z[0] > 6 || random_.uniform() < 0.2) continue;
+      // Half of them by a coarse range: then many are near in terms of their deviations.
+      const double rangeStd = i % 2 ? 4 * kRangeStd : kRangeStd;
+      z += Vector2(rangeStd * random_.normal(), kBearingStd * random_.normal());
+      if (z[0] < 0.1 || z[0] > 6 || random_.uniform() < 0.2) continue;
       if (case_.knownIds && random_.uniform() < 0.05) z[0] += 3;  // out of every gate
-      out.push_back({z[0], math::wrapToPi(z[1]), kRangeStd, kBearingStd, id(i)});
+      out.push_back({z[0], math::wrapToPi(z[1]), rangeStd, kBearingStd, id(i)});
     }
     for (int n = random_.poisson(1.0); n > 0; --n)
       out.push_back({random_.uniform(0.5, 6), random_.uniform(-3, 3), kRangeStd, kBearingStd,
@@ -249,6 +253,7 @@ TEST_P(RbpfSlamotReference, EqualsThePlainFilterNumberByNumber)
 {
   double squares = 0;
   int samples = 0, resamplings = 0, known = 0, fresh = 0, rejected = 0;
+  int near = 0, far = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed)
   {
     SCOPED_TRACE(seed);
@@ -266,11 +271,14 @@ TEST_P(RbpfSlamotReference, EqualsThePlainFilterNumberByNumber)
       for (int i = 0; i < 3; ++i) both.drive();
     }
     known += both.known, fresh += both.fresh, rejected += both.rejected;
+    near += both.near(), far += both.far();
   }
   // What it is about did happen.
   EXPECT_GT(known, 10000);
   EXPECT_GT(fresh, 1000);
   EXPECT_GT(rejected, 500);
+  EXPECT_GT(near, 2000);
+  EXPECT_GT(far, 5000);
   EXPECT_EQ(resamplings > 20, GetParam().resampleAt > 0);
   if (samples == 0) return;
   // Informed: poses are drawn from the Gaussian that takes the scan in.

@@ -8,17 +8,18 @@ namespace slamot::filters::rbpf
 {
 /// Collects what a scan says of a pose with prior N(x0, P0), all sightings linearised at x0, and
 /// gives the posterior and the scan's marginal likelihood: the proposal of FastSLAM 2.0
-/// (Montemerlo et al. 2003, eq. (15)-(20)) for a whole scan at once, the targets' sightings included.
-/// P0 may be singular (a control with two noises): only a square root of it enters, never its inverse.
+/// (Montemerlo et al. 2003, eq. (15)-(20)) for a whole scan at once, the targets' sightings
+/// included. P0 may be singular (a control with two noises): only a square root of it enters, never
+/// its inverse.
 class PoseUpdate
 {
  public:
   /// A sighting of a point with the innovation taken at x0.
   void add(const Innovation& o)
   {
-    // By the pose, h's derivative is (-H, (0, -1)ᵀ).
+    // By the pose, the derivative of what is expected is (-H, turn).
     Eigen::Matrix<double, 2, 3> J;
-    J << -o.h11, -o.h12, 0.0, -o.h21, -o.h22, -1.0;
+    J << -o.h11, -o.h12, o.turnR, -o.h21, -o.h22, o.turnB;
     const double id = 1 / o.det;
     Matrix2 Si;
     Si << o.s22 * id, -o.s12 * id, -o.s12 * id, o.s11 * id;
@@ -29,8 +30,8 @@ class PoseUpdate
 
   struct Result
   {
-    Vector3 shift;  ///< of the mean, from x0
-    Matrix3 root;   ///< a square root L of the covariance L Lᵀ
+    Vector3 shift;   ///< of the mean, from x0
+    Matrix3 root;    ///< a square root L of the covariance L Lᵀ
     double logGain;  ///< log of the marginal over the likelihood at x0: ½ (bᵀ P b - ln|I + P0 A|)
   };
   /// \param root a square root of the prior: P0 = root rootᵀ.

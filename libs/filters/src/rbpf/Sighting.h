@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-// The inner loop of the particle filter: one pose, one sighting, one point with covariance.  Written
-// out by hand, since here every nanosecond counts N particles times; RangeBearing is the readable
-// form, and a test holds the two together.
+// The inner loop of the particle filter: one pose, one sighting, one point with covariance. Written
+// out by hand, since here every nanosecond counts N particles times; tests hold it together with
+// RangeBearing and with the same by matrices.
 namespace slamot::filters::rbpf
 {
 /// A sighting, prepared once for all particles.
@@ -20,8 +20,9 @@ struct Ray
 
   static Ray of(double range, double bearing, double rangeStd, double bearingStd)
   {
-    return {range, std::cos(bearing), std::sin(bearing), bearing, rangeStd * rangeStd,
-            bearingStd * bearingStd, true};
+    return {range,   std::cos(bearing),   std::sin(bearing),
+            bearing, rangeStd * rangeStd, bearingStd * bearingStd,
+            true};
   }
   static Ray ofBearing(double bearing, double bearingStd)
   {
@@ -33,15 +34,19 @@ struct Ray
 struct Eye
 {
   double x, y, phi, c, s;
-  explicit Eye(const Pose2D& p) : x(p.x), y(p.y), phi(p.phi), c(std::cos(p.phi)), s(std::sin(p.phi)) {}
+  explicit Eye(const Pose2D& p) : x(p.x), y(p.y), phi(p.phi), c(std::cos(p.phi)), s(std::sin(p.phi))
+  {
+  }
 };
 
-/// Innovation of one sighting of one point: nu (range, bearing), S = H P Hᵀ + R, H by the point.
+/// Innovation of one sighting of one point: nu (range [m], bearing [rad]), S = H P Hᵀ + R, where H
+/// is the derivative by the point of what is expected; by the pose it is (-H, turn).
 struct Innovation
 {
   double nuR, nuB;
   double s11, s12, s22, det;
   double h11, h12, h21, h22;
+  double turnR, turnB;
   double d2;  ///< nuᵀ S⁻¹ nu
 };
 
@@ -56,31 +61,54 @@ inline double smallAngle(double y, double x)
   return std::atan2(y, x);
 }
 
-/// False where the model is singular (range below 1 cm).  `noise` multiplies the sighting's variances.
+// Within eight deviations (squared here) of the point and the range, polar coordinates bend too
+// much: a filter linearised in them turns over-confident.  A frame on the sighting's ray is linear
+// in the point there; farther away it would not do, since it bends where a heading is uncertain.
+constexpr double kNear = 64;
+
+/// In polar coordinates, or near by in a frame on the sighting's ray.  False where the bearing has
+/// no derivative: below 1 cm, and not near in the sense above (so always for a bearing alone).
+/// `noise` multiplies the sighting's variances.
 inline bool innovate(const Eye& eye, const Ray& z, double mx, double my, double pxx, double pxy,
                      double pyy, Innovation& o, double noise = 1)
 {
   const double dx = mx - eye.x, dy = my - eye.y, q = dx * dx + dy * dy;
-  constexpr double kMin = models::RangeBearing::kSmallestRange;
-  if (!(q >= kMin * kMin)) return false;
-  const double r = std::sqrt(q), ir = 1 / r, iq = ir * ir;
-  // The point in a frame along the sighting's ray: its direction there is minus the innovation,
-  // already wrapped.
   const double c = eye.c * z.cosB - eye.s * z.sinB, s = eye.s * z.cosB + eye.c * z.sinB;
-  o.nuB = -smallAngle(c * dy - s * dx, c * dx + s * dy);
-  o.h21 = -dy * iq;
-  o.h22 = dx * iq;
-  if (z.hasRange)
+  // The point in that frame: its direction there is minus the bearing's innovation, wrapped.
+  const double along = c * dx + s * dy, across = c * dy - s * dx;
+  if (z.hasRange && q < kNear * (pxx + pyy + z.varRange))
   {
-    o.nuR = z.range - r;
-    o.h11 = dx * ir;
-    o.h12 = dy * ir;
+    // The true range's second moment is range^2 + varRange.  Metres across divided by its root have
+    // the bearing's variance, also where the range is mostly noise.
+    const double ir = 1 / std::sqrt(z.range * z.range + z.varRange);
+    o.nuR = z.range - along;
+    o.nuB = -across * ir;
+    o.h11 = c;
+    o.h12 = s;
+    o.h21 = -s * ir;
+    o.h22 = c * ir;
+    o.turnR = across;
+    o.turnB = -along * ir;
   }
   else
-    o.nuR = o.h11 = o.h12 = 0;  // varRange = 1 then makes the first row inert
+  {
+    constexpr double kMin = models::RangeBearing::kSmallestRange;
+    if (!(q >= kMin * kMin)) return false;
+    const double r = std::sqrt(q), ir = 1 / r, iq = ir * ir;
+    const double ranged = z.hasRange ? ir : 0;  // without, the first row is inert
+    o.nuR = z.hasRange ? z.range - r : 0;
+    o.nuB = -smallAngle(across, along);
+    o.h11 = dx * ranged;
+    o.h12 = dy * ranged;
+    o.h21 = -dy * iq;
+    o.h22 = dx * iq;
+    o.turnR = 0;
+    o.turnB = -1;
+  }
   const double a1 = pxx * o.h11 + pxy * o.h12, a2 = pxy * o.h11 + pyy * o.h12;
   const double b1 = pxx * o.h21 + pxy * o.h22, b2 = pxy * o.h21 + pyy * o.h22;
-  o.s11 = o.h11 * a1 + o.h12 * a2 + noise * z.varRange;
+  // A row without a range keeps its variance of 1, so that S's determinant is that of the bearing.
+  o.s11 = o.h11 * a1 + o.h12 * a2 + (z.hasRange ? noise : 1) * z.varRange;
   o.s12 = o.h21 * a1 + o.h22 * a2;
   o.s22 = o.h21 * b1 + o.h22 * b2 + noise * z.varBearing;
   o.det = o.s11 * o.s22 - o.s12 * o.s12;
@@ -91,15 +119,16 @@ inline bool innovate(const Eye& eye, const Ray& z, double mx, double my, double 
 /// The innovation with the pose's own covariance added to S.
 inline Innovation withPose(const Innovation& o, const Matrix3& poseCov)
 {
-  Eigen::Matrix<double, 2, 3> J;  // of h by the pose
-  J << -o.h11, -o.h12, 0.0, -o.h21, -o.h22, -1.0;
+  Eigen::Matrix<double, 2, 3> J;  // of what is expected, by the pose
+  J << -o.h11, -o.h12, o.turnR, -o.h21, -o.h22, o.turnB;
   const Matrix2 add = J * poseCov * J.transpose();
   Innovation out = o;
   out.s11 += add(0, 0);
   out.s12 += add(0, 1);
   out.s22 += add(1, 1);
   out.det = out.s11 * out.s22 - out.s12 * out.s12;
-  out.d2 = (out.s22 * o.nuR * o.nuR - 2 * out.s12 * o.nuR * o.nuB + out.s11 * o.nuB * o.nuB) / out.det;
+  out.d2 =
+      (out.s22 * o.nuR * o.nuR - 2 * out.s12 * o.nuR * o.nuB + out.s11 * o.nuB * o.nuB) / out.det;
   return out;
 }
 
@@ -154,7 +183,10 @@ class LogProduct
       exponent_ += e;
     }
   }
-  [[nodiscard]] double log() const { return std::log(mantissa_) + exponent_ * 0.69314718055994530942; }
+  [[nodiscard]] double log() const
+  {
+    return std::log(mantissa_) + exponent_ * 0.69314718055994530942;
+  }
 
  private:
   double mantissa_ = 1;
