@@ -12,30 +12,42 @@ namespace slamot::filters::rbpf
 namespace
 {
 // Purposes of random streams.
-enum : std::uint64_t { kStartStream = 1, kMoveStream, kSampleStream, kResampleStream };
+enum : std::uint64_t
+{
+  kStartStream = 1,
+  kMoveStream,
+  kSampleStream,
+  kResampleStream,
+  kAssociateStream
+};
 
 constexpr double kLongestUnsampledTurn = 0.2;  // [rad] deviation of the pending heading
 
-double meanStd(const Gaussian<Pose2D>& g) { return std::sqrt(std::max(0.0, 0.5 * (g.cov(0, 0) + g.cov(1, 1)))); }
+double meanStd(const Gaussian<Pose2D>& g)
+{
+  return std::sqrt(std::max(0.0, 0.5 * (g.cov(0, 0) + g.cov(1, 1))));
+}
 }  // namespace
 
 void BestMap::visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const
 {
   std::vector<core::LandmarkEstimate> confirmed;
-  map.visit([&](std::uint32_t slot, const maps::Landmark& m) {
-    if (m.sightings < settings_.confirmSightings || m.existence < 0) return;
-    confirmed.push_back({scan_.idOf(slot), {m.point(), m.cov()}, m.sightings});
-  });
-  std::sort(confirmed.begin(), confirmed.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  map.visit(
+      [&](std::uint32_t slot, const maps::Landmark& m)
+      {
+        if (m.sightings < settings_.confirmSightings || m.existence < 0) return;
+        confirmed.push_back({scan_.idOf(slot), {m.point(), m.cov()}, m.sightings});
+      });
+  std::sort(confirmed.begin(), confirmed.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
   for (const auto& m : confirmed) visitor(m);
 }
 
 std::size_t BestMap::size() const
 {
   std::size_t n = 0;
-  map.visit([&](std::uint32_t, const maps::Landmark& m) {
-    n += m.sightings >= settings_.confirmSightings && m.existence >= 0;
-  });
+  map.visit([&](std::uint32_t, const maps::Landmark& m)
+            { n += m.sightings >= settings_.confirmSightings && m.existence >= 0; });
   return n;
 }
 
@@ -84,7 +96,8 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
       const Vector3 d = L * random.normal3();
       p.pose = {p.pose.x + d[0], p.pose.y + d[1], math::wrapToPi(p.pose.phi + d[2])};
     }
-    for (const Track& t : tracks_.list()) p.targets.push_back(motion_.start(context.starts.targets.at(t.id)));
+    for (const Track& t : tracks_.list())
+      p.targets.push_back(motion_.start(context.starts.targets.at(t.id)));
   }
   if (settings_.informed) pending_.cov = bodyCov;
   estimate_.landmarks = &bestMap_;
@@ -97,13 +110,15 @@ core::Update EngineOf<Motion>::process(const core::Step& step)
 {
   core::checkStep(step, estimate_.time);
   const double dt = std::isfinite(estimate_.time) ? step.time - estimate_.time : 0.0;
-  const bool hasScan = (step.landmarks && (!step.landmarks->sightings.empty() || settings_.detection > 0)) ||
-                       (step.blobs && !step.blobs->blobs.empty());
+  const bool hasScan =
+      (step.landmarks && (!step.landmarks->sightings.empty() || settings_.detection > 0)) ||
+      (step.blobs && !step.blobs->blobs.empty());
   ++stepNumber_;
   diagnostics_.ess.reset();
   diagnostics_.resampled = false;
   std::vector<core::Pairing> pairs;
-  particles_.predictAndUpdate = [&] {
+  particles_.predictAndUpdate = [&]
+  {
     if (step.odometry) move(*step.odometry);
     predictTargets(dt);
     if (hasScan) takeScan(step);
@@ -134,15 +149,18 @@ template <class Motion>
 void EngineOf<Motion>::move(const Gaussian<Pose2D>& increment)
 {
   pending_ = math::compose(pending_, increment);
+  scan_.move(increment);
   if (settings_.informed && std::sqrt(pending_.cov(2, 2)) < kLongestUnsampledTurn) return;
   const Matrix3 L = math::squareRoot(pending_.cov);
   const Pose2D mean = pending_.mean;
-  workers_.forEach(particles_.size(), [&](std::size_t i, int) {
-    math::RandomStream random{seed_, kMoveStream, stepNumber_, i};
-    const Vector3 d = L * random.normal3();
-    Pose2D& pose = particles_[i].pose;
-    pose = math::compose(pose, {mean.x + d[0], mean.y + d[1], mean.phi + d[2]});
-  });
+  workers_.forEach(particles_.size(),
+                   [&](std::size_t i, int)
+                   {
+                     math::RandomStream random{seed_, kMoveStream, stepNumber_, i};
+                     const Vector3 d = L * random.normal3();
+                     Pose2D& pose = particles_[i].pose;
+                     pose = math::compose(pose, {mean.x + d[0], mean.y + d[1], mean.phi + d[2]});
+                   });
   pending_ = {};
 }
 
@@ -150,16 +168,19 @@ template <class Motion>
 void EngineOf<Motion>::predictTargets(double dt)
 {
   if (dt <= 0 || tracks_.list().empty()) return;
-  workers_.forEach(particles_.size(), [&](std::size_t i, int) {
-    for (State& t : particles_[i].targets) motion_.predict(t, dt);
-  });
+  workers_.forEach(particles_.size(),
+                   [&](std::size_t i, int)
+                   {
+                     for (State& t : particles_[i].targets) motion_.predict(t, dt);
+                   });
 }
 
 template <class Motion>
 void EngineOf<Motion>::takeScan(const core::Step& step)
 {
   for (std::size_t i = 0; i < particles_.size(); ++i)
-    priors_[i] = settings_.informed ? math::compose(particles_[i].pose, pending_.mean) : particles_[i].pose;
+    priors_[i] =
+        settings_.informed ? math::compose(particles_[i].pose, pending_.mean) : particles_[i].pose;
   if (settings_.informed) pendingRoot_ = math::squareRoot(pending_.cov);
   scan_.begin(step.landmarks ? &*step.landmarks : nullptr, step.time, priors_, pending_);
   blobRays_.rays.clear();
@@ -197,12 +218,20 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
     out.cov = root * root.transpose();
   }
   const Matrix3* poseCov = settings_.informed ? &out.cov : nullptr;
-  scan_.match(p.map, prior, out.cov, lane, scratch.candidates, out.landmarks);
-  matchBlobs(prior, blobRays_, tracks_.list(), p.targets, settings_.gates, poseCov, scratch.candidates,
-             out.blobs);
+  double gain = 0;
+  if (scan_.hasTracks())
+  {
+    math::RandomStream random{seed_, kAssociateStream, stepNumber_, i};
+    gain +=
+        scan_.matchTracks(p.map, prior, root, p.followed, random, scratch.tracks, out.landmarks);
+  }
+  else
+    scan_.match(p.map, prior, out.cov, scratch.candidates, out.landmarks);
+  matchBlobs(prior, blobRays_, tracks_.list(), p.targets, settings_.gates, poseCov,
+             scratch.candidates, out.blobs);
   PoseUpdate update;
-  double gain = scan_.weigh(p.map, prior, out.cov, out.landmarks, scratch.innovations,
-                            settings_.informed ? &update : nullptr);
+  gain += scan_.weigh(p.map, prior, out.cov, out.landmarks, scratch.innovations,
+                      settings_.informed ? &update : nullptr);
   gain += weighTargets(i, prior, update);
   const bool sampled = settings_.informed && scan_.size() + blobRays_.rays.size() > 0;
   if (sampled) samplePose(i, root, update, gain);
@@ -212,7 +241,8 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
   scan_.apply(p.map, eye, out.landmarks, sampled ? nullptr : &scratch.innovations, lane);
   for (std::size_t k = 0; k < out.blobs.size(); ++k)
     if (out.blobs[k] >= 0)
-      correctTarget(motion_, p.targets[static_cast<std::size_t>(out.blobs[k])], eye, blobRays_.rays[k]);
+      correctTarget(motion_, p.targets[static_cast<std::size_t>(out.blobs[k])], eye,
+                    blobRays_.rays[k]);
 }
 
 template <class Motion>
@@ -226,7 +256,8 @@ double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate&
     const Ray& ray = blobRays_.rays[k];
     // A pair at the gate's edge: what a blob out of all gates counts, so that no particle gains by
     // losing a target.
-    const double logNew = -0.5 * settings_.gates.outer - 0.5 * std::log(ray.varRange * ray.varBearing);
+    const double logNew =
+        -0.5 * settings_.gates.outer - 0.5 * std::log(ray.varRange * ray.varBearing);
     Innovation o;
     const auto t = static_cast<std::size_t>(blobs[k]);
     if (blobs[k] < 0 || !tracks_.list()[t].confirmed ||
@@ -283,7 +314,8 @@ std::vector<double> EngineOf<Motion>::voteShares(std::size_t blob, std::size_t k
   for (std::size_t i = 0; i < outcomes_.size(); ++i)
   {
     const std::int32_t m = outcomes_[i].blobs[blob];
-    const std::size_t at = m >= 0 ? static_cast<std::size_t>(m) : share.size() - (m == kNew ? 2 : 1);
+    const std::size_t at =
+        m >= 0 ? static_cast<std::size_t>(m) : share.size() - (m == kNew ? 2 : 1);
     share[at] += weights_[i];
   }
   return share;
@@ -298,7 +330,8 @@ void EngineOf<Motion>::settleTracks(double time)
   {
     const core::Blob& blob = (*blobRays_.blobs)[k];
     const auto share = voteShares(k, known);
-    const auto winner = static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
+    const auto winner =
+        static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
     if (winner < known)
     {
       tracks_.hit(winner, blob, time);
@@ -323,7 +356,8 @@ void EngineOf<Motion>::dropLostTracks(double time)
   for (std::size_t t = tracks_.list().size(); t-- > 0;)
   {
     TargetMoments<Motion> moments;
-    for (std::size_t i = 0; i < particles_.size(); ++i) moments.add(weights_[i], particles_[i].targets[t]);
+    for (std::size_t i = 0; i < particles_.size(); ++i)
+      moments.add(weights_[i], particles_[i].targets[t]);
     const double std = meanStd(moments.estimate(tracks_.list()[t]).pose);
     if (!tracks_.isLost(t, time, std)) continue;
     tracks_.erase(t);
@@ -413,7 +447,8 @@ std::vector<core::WeightedPose> EngineOf<Motion>::particles() const
   for (std::size_t i = 0; i < weights_.size(); ++i)
     out.push_back({math::compose(particles_.m_particles[i].d.pose, pending_.mean), 0});
   double sum = 0;
-  for (std::size_t i = 0; i < out.size(); ++i) sum += out[i].weight = std::exp(particles_.m_particles[i].log_w);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    sum += out[i].weight = std::exp(particles_.m_particles[i].log_w);
   for (auto& p : out) p.weight /= sum;
   return out;
 }

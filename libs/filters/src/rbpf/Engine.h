@@ -55,13 +55,14 @@ class EngineOf : public RbpfSlamot::Engine
   struct Outcome  // what one particle made of a scan
   {
     std::vector<std::int32_t> landmarks, blobs;
-    Vector3 mean;          // of its pose before sampling (informed), else the pose
-    Matrix3 cov;           // of that mean; zero for a sampled pose
+    Vector3 mean;  // of its pose before sampling (informed), else the pose
+    Matrix3 cov;   // of that mean; zero for a sampled pose
   };
   struct Scratch
   {
     std::vector<Candidate> candidates;
     std::vector<Innovation> innovations;
+    TrackScratch tracks;
   };
 
   void start(const core::FilterContext& context);
@@ -89,14 +90,14 @@ class EngineOf : public RbpfSlamot::Engine
   Tracks tracks_;
   LandmarkScan scan_;
   BlobRays blobRays_;
-  Gaussian<Pose2D> pending_;       // informed: motion since the poses were last sampled
-  Matrix3 pendingRoot_;            // a square root of its covariance, for the scan
-  std::vector<Pose2D> priors_;     // each particle's pose before the scan
-  std::vector<double> weights_;    // normalised, after the scan
+  Gaussian<Pose2D> pending_;     // informed: motion since the poses were last sampled
+  Matrix3 pendingRoot_;          // a square root of its covariance, for the scan
+  std::vector<Pose2D> priors_;   // each particle's pose before the scan
+  std::vector<double> weights_;  // normalised, after the scan
   std::vector<Outcome> outcomes_;
   std::vector<Scratch> scratch_;
   std::vector<double> targetNoise_;  // of each track, where its sightings shape the poses
-  std::vector<int> blobIds_;       // the target that the scan's blobs are of, on the whole
+  std::vector<int> blobIds_;         // the target that the scan's blobs are of, on the whole
   std::uint64_t resamplings_ = 0;
   std::size_t best_ = 0;
   BestMap bestMap_;

@@ -7,7 +7,7 @@ namespace slamot::filters::rbpf
 namespace
 {
 constexpr double kLogTwoPi = 1.8378770664093453;
-constexpr double kFalseAlarm = 0.05;        // chance that a wrong landmark is "seen" where it should be
+constexpr double kFalseAlarm = 0.05;  // chance that a wrong landmark is "seen" where it should be
 constexpr float kMostExistence = 4.0f, kGoneExistence = -2.0f;  // log odds
 
 /// The places that a sighting may be of, over all particles' poses.
@@ -27,15 +27,18 @@ void sortUnique(std::vector<std::uint32_t>& v)
 }  // namespace
 
 LandmarkScan::LandmarkScan(const Settings& settings, maps::LandmarkPool& pool, int lanes)
-    : settings_(settings), pool_(pool), extents_(static_cast<std::size_t>(lanes))
+    : settings_(settings),
+      tracks_(settings.tracking),
+      pool_(pool),
+      extents_(static_cast<std::size_t>(lanes))
 {
   if (settings.detection <= 0) return;
   hitLogOdds_ = std::log(settings.detection / kFalseAlarm);
   missLogOdds_ = std::log((1 - settings.detection) / (1 - kFalseAlarm));
 }
 
-void LandmarkScan::begin(const core::LandmarkScan* scan, double time, const std::vector<Pose2D>& priors,
-                         const Gaussian<Pose2D>& pending)
+void LandmarkScan::begin(const core::LandmarkScan* scan, double time,
+                         const std::vector<Pose2D>& priors, const Gaussian<Pose2D>& pending)
 {
   rays_.clear();
   logNew_.clear();
@@ -63,6 +66,7 @@ void LandmarkScan::begin(const core::LandmarkScan* scan, double time, const std:
     findCandidates(priors, pending);
     if (settings_.detection > 0) findInView(*scan, priors);
     sortUnique(touched_);
+    if (tracks_.isOn()) tracks_.link(rays_, time);
   }
   for (std::size_t j = 0; j < rays_.size(); ++j)
     newSlots_.push_back(settings_.knownIds && knownSlots_[j] >= 0
@@ -96,16 +100,19 @@ void LandmarkScan::findKnown(const core::LandmarkScan& scan)
   for (const core::Sighting& s : scan.sightings)
   {
     const auto it = slotOfId_.find(s.id);
-    const bool repeated = std::find(pendingIds_.begin(), pendingIds_.end(), s.id) != pendingIds_.end();
+    const bool repeated =
+        std::find(pendingIds_.begin(), pendingIds_.end(), s.id) != pendingIds_.end();
     knownSlots_.push_back(s.id == core::kNoId || repeated ? kRejected
                           : it == slotOfId_.end()         ? kNew
                                                           : static_cast<std::int32_t>(it->second));
     pendingIds_.push_back(s.id);
   }
-  idOfSlot_.resize(std::max(idOfSlot_.size(), index_.capacity() + scan.sightings.size()), core::kNoId);
+  idOfSlot_.resize(std::max(idOfSlot_.size(), index_.capacity() + scan.sightings.size()),
+                   core::kNoId);
 }
 
-void LandmarkScan::findCandidates(const std::vector<Pose2D>& priors, const Gaussian<Pose2D>& pending)
+void LandmarkScan::findCandidates(const std::vector<Pose2D>& priors,
+                                  const Gaussian<Pose2D>& pending)
 {
   maps::Box poses;
   double low = 0, high = 0;
@@ -125,7 +132,8 @@ void LandmarkScan::findCandidates(const std::vector<Pose2D>& priors, const Gauss
     const Ray& ray = rays_[j];
     // The gate's reach: standard deviations of parts add up to more than that of the sum.
     const double reach = sigmas * (std::sqrt(ray.varRange) + poseStd);
-    const double across = sigmas * (ray.range + reach) * std::sqrt(ray.varBearing + pending.cov(2, 2));
+    const double across =
+        sigmas * (ray.range + reach) * std::sqrt(ray.varBearing + pending.cov(2, 2));
     index_.query(placesOf(ray, poses, middle, halfSpan).grown(reach + across), sigmas, near_[j]);
     touched_.insert(touched_.end(), near_[j].begin(), near_[j].end());
   }
@@ -141,10 +149,11 @@ void LandmarkScan::findInView(const core::LandmarkScan& scan, const std::vector<
 
 void LandmarkScan::noteExtent(int lane, std::uint32_t slot, const maps::Landmark& m)
 {
-  extents_[static_cast<std::size_t>(lane)][slot].include(m.x, m.y, largestEigenvalue(m.cxx, m.cxy, m.cyy));
+  extents_[static_cast<std::size_t>(lane)][slot].include(m.x, m.y,
+                                                         largestEigenvalue(m.cxx, m.cxy, m.cyy));
 }
 
-void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov, int lane,
+void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov,
                          std::vector<Candidate>& candidates, std::vector<std::int32_t>& matches)
 {
   matches.resize(rays_.size());
@@ -163,7 +172,8 @@ void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Mat
     {
       const maps::Landmark* m = map.find(slot);
       Innovation o;
-      // With the sighting's whole noise: which landmark it is of does not get less sure by repetition.
+      // With the sighting's whole noise: which landmark it is of does not get less sure by
+      // repetition.
       if (!m || !innovate(eye, rays_[j], m->x, m->y, m->cxx, m->cxy, m->cyy, o)) continue;
       if (spread) o = withPose(o, poseCov);
       if (o.d2 <= settings_.gates.outer)
@@ -171,8 +181,6 @@ void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Mat
                               static_cast<std::int32_t>(slot), o.d2 <= settings_.gates.inner});
     }
   matchGreedily(candidates, matches);
-  for (const std::uint32_t slot : touched_)
-    if (const maps::Landmark* m = map.find(slot)) noteExtent(lane, slot, *m);
 }
 
 double LandmarkScan::weigh(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov,
@@ -203,9 +211,12 @@ double LandmarkScan::weigh(const maps::LandmarkMap& map, const Eye& eye, const M
   return sum - 0.5 * dets.log();
 }
 
-void LandmarkScan::apply(maps::LandmarkMap& map, const Eye& eye, const std::vector<std::int32_t>& matches,
+void LandmarkScan::apply(maps::LandmarkMap& map, const Eye& eye,
+                         const std::vector<std::int32_t>& matches,
                          const std::vector<Innovation>* innovations, int lane)
 {
+  for (const std::uint32_t slot : touched_)
+    if (const maps::Landmark* m = map.find(slot)) noteExtent(lane, slot, *m);
   for (std::size_t j = 0; j < rays_.size(); ++j)
   {
     if (matches[j] == kRejected) continue;
@@ -233,7 +244,8 @@ void LandmarkScan::applyMisses(maps::LandmarkMap& map, const Eye& eye,
   for (const std::uint32_t slot : inView_)
   {
     const maps::Landmark* m = map.find(slot);
-    if (!m || std::find(matches.begin(), matches.end(), static_cast<std::int32_t>(slot)) != matches.end())
+    if (!m ||
+        std::find(matches.begin(), matches.end(), static_cast<std::int32_t>(slot)) != matches.end())
       continue;
     const double dx = m->x - eye.x, dy = m->y - eye.y, r = std::hypot(dx, dy);
     const double bearing = math::wrapToPi(std::atan2(dy, dx) - eye.phi);
@@ -242,7 +254,8 @@ void LandmarkScan::applyMisses(maps::LandmarkMap& map, const Eye& eye,
     const double turn = margin / std::max(r, 0.1);
     const bool allRound = fov_.bearingMax - fov_.bearingMin > math::kTwoPi - 1e-6;
     if (r < fov_.rangeMin + margin || r > fov_.rangeMax - margin) continue;
-    if (!allRound && (bearing < fov_.bearingMin + turn || bearing > fov_.bearingMax - turn)) continue;
+    if (!allRound && (bearing < fov_.bearingMin + turn || bearing > fov_.bearingMax - turn))
+      continue;
     const float odds = m->existence + static_cast<float>(missLogOdds_);
     if (odds < kGoneExistence)
       map.erase(pool_, lane, slot);
@@ -261,8 +274,8 @@ void LandmarkScan::finish(const std::vector<const std::vector<std::int32_t>*>& m
   for (std::size_t j = rays_.size(); j-- > 0;)  // backwards, so that unused numbers are given back
   {
     if (settings_.knownIds && knownSlots_[j] >= 0) continue;
-    const bool used = std::any_of(matches.begin(), matches.end(),
-                                  [&](const auto* m) { return (*m)[j] == kNew; });
+    const bool used =
+        std::any_of(matches.begin(), matches.end(), [&](const auto* m) { return (*m)[j] == kNew; });
     if (!used)
       index_.release(newSlots_[j]);
     else if (settings_.knownIds)

@@ -2,13 +2,29 @@
 
 #include "PoseUpdate.h"
 #include "Settings.h"
+#include "SightingTracks.h"
 
 #include <slamot/maps/SlotIndex.h>
+#include <slamot/math/random.h>
 
 #include <unordered_map>
 
 namespace slamot::filters::rbpf
 {
+/// What a sighting may be of, with the logarithm of its likelihood.
+struct Choice
+{
+  std::int32_t what;  ///< a slot or kNew
+  double logLikelihood;
+  Innovation innovation;  ///< from the prior pose; not set for kNew
+};
+
+struct TrackScratch
+{
+  std::vector<std::size_t> open;  // sightings whose tracks have no landmark yet
+  std::vector<Choice> choices, chosen;
+};
+
 /// The landmark side of a scan: which slots its sightings may be of, for all particles at once, and
 /// what one particle does with them.
 class LandmarkScan
@@ -22,12 +38,28 @@ class LandmarkScan
              const Gaussian<Pose2D>& pending);
 
   /// Gives each sighting a slot, kNew or kRejected, for one particle.
-  void match(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov, int lane,
+  void match(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov,
              std::vector<Candidate>& candidates, std::vector<std::int32_t>& matches);
 
-  /// log weight of the matched sightings and of those unmatched; fills `update` where it is informed.
-  /// A sighting whose identity names a landmark far out of the outer gate becomes kRejected here.
-  /// `innovations` keeps what apply() can use again if the pose stays.
+  /// The same by the sightings' tracks: what continues one keeps its landmark, the others are drawn
+  /// from the likelihoods of what they may be of, one by one, each helping to place the pose for
+  /// the next (sequential compatibility).  `followed` holds a particle's landmark for each track.
+  /// `root` is a square root of the pose's covariance, zero for a sampled pose.
+  /// \return what the drawing adds to the log weight: log of the sum over the chosen likelihood.
+  double matchTracks(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
+                     std::vector<std::int32_t>& followed, math::RandomStream& random,
+                     TrackScratch& scratch, std::vector<std::int32_t>& matches) const;
+  /// The robot has moved.
+  void move(const Gaussian<Pose2D>& increment)
+  {
+    if (tracks_.isOn()) tracks_.move(increment);
+  }
+  /// Whether matchTracks() is to be used in place of match().
+  [[nodiscard]] bool hasTracks() const { return tracks_.isOn(); }
+
+  /// log weight of the matched sightings and of those unmatched; fills `update` where it is
+  /// informed. A sighting whose identity names a landmark far out of the outer gate becomes
+  /// kRejected here. `innovations` keeps what apply() can use again if the pose stays.
   double weigh(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov,
                std::vector<std::int32_t>& matches, std::vector<Innovation>& innovations,
                PoseUpdate* update) const;
@@ -60,23 +92,28 @@ class LandmarkScan
     return innovate(eye, rays_[j], m.x, m.y, m.cxx, m.cxy, m.cyy, o,
                     slot < noise_.size() ? noise_[slot] : 1.0);
   }
+  void listChoices(const maps::LandmarkMap& map, const Eye& eye, const PoseUpdate::Result& pose,
+                   std::size_t j, const std::vector<std::int32_t>& matches,
+                   std::vector<Choice>& choices) const;
   void setNoise();
-  void applyMisses(maps::LandmarkMap& map, const Eye& eye, const std::vector<std::int32_t>& matches, int lane);
+  void applyMisses(maps::LandmarkMap& map, const Eye& eye, const std::vector<std::int32_t>& matches,
+                   int lane);
 
   const Settings& settings_;
+  SightingTracks tracks_;
   maps::LandmarkPool& pool_;
   maps::SlotIndex index_;
   std::unordered_map<int, std::uint32_t> slotOfId_;  // known association
   std::vector<int> idOfSlot_;
-  std::vector<int> pendingIds_;                       // identities of the scan's sightings
+  std::vector<int> pendingIds_;  // identities of the scan's sightings
   core::FieldOfView fov_;
   std::vector<Ray> rays_;
-  std::vector<double> logNew_;                        // log p_new for each sighting
-  std::vector<std::int32_t> knownSlots_;              // by identity; kNew if not seen before
+  std::vector<double> logNew_;            // log p_new for each sighting
+  std::vector<std::int32_t> knownSlots_;  // by identity; kNew if not seen before
   std::vector<std::uint32_t> newSlots_;
-  std::vector<std::vector<std::uint32_t>> near_;      // slots that each sighting may be of
-  std::vector<std::uint32_t> touched_;                // slots whose extent this scan sets anew
-  std::vector<std::uint32_t> inView_;                 // slots that might be missed
+  std::vector<std::vector<std::uint32_t>> near_;        // slots that each sighting may be of
+  std::vector<std::uint32_t> touched_;                  // slots whose extent this scan sets anew
+  std::vector<std::uint32_t> inView_;                   // slots that might be missed
   std::vector<std::vector<maps::SlotExtent>> extents_;  // by lane, by slot
   double time_ = 0;
   std::vector<double> lastSeen_, noise_;  // by slot; empty if sightings are independent

@@ -15,11 +15,12 @@ struct Particle
   Pose2D pose;
   maps::LandmarkMap map;  // a handle: nodes are shared
   std::vector<TargetState> targets;
+  std::vector<std::int32_t> followed;  // the landmark that each track of sightings is of
 };
 
-/// The particles as MRPT's particle filter classes see them.  MRPT decides when and how to resample;
-/// the step's work comes in as a function, since MRPT's own arguments (actions and frames) don't
-/// carry what a Step does.
+/// The particles as MRPT's particle filter classes see them.  MRPT decides when and how to
+/// resample; the step's work comes in as a function, since MRPT's own arguments (actions and
+/// frames) don't carry what a Step does.
 template <class TargetState>
 class ParticleSet
     : public ::mrpt::bayes::CParticleFilterData<Particle<TargetState>,

@@ -10,7 +10,8 @@ Gates Gates::from(core::Params& p)
 {
   const double inner = p.probability("gate_probability", 0.99);
   const double outer = p.probability("new_gate_probability", 0.99999);
-  if (outer < inner) p.fail("new_gate_probability", "is below gate_probability", "make it the larger");
+  if (outer < inner)
+    p.fail("new_gate_probability", "is below gate_probability", "make it the larger");
   return {math::chiSquareQuantile(inner, 2), math::chiSquareQuantile(outer, 2),
           math::chiSquareQuantile(inner, 1), math::chiSquareQuantile(outer, 1)};
 }
@@ -33,6 +34,9 @@ Settings Settings::from(core::Params& p)
   s.rangeStd = p.nonNegative("range_std_m", 0.0);
   s.bearingStd = p.nonNegative("bearing_std_deg", 0.0);
   s.correlationTime = p.nonNegative("sighting_correlation_s", 0.0);
+  if (!s.knownIds)
+    s.tracking = {p.nonNegative("follow_range_std_m", 0.0),
+                  p.nonNegative("follow_bearing_std_deg", 0.0)};
   s.confirmSightings = p.integer("confirm_sightings", 1, 1000000, s.knownIds ? 1 : 3);
   s.detection = p.inRange("detection_probability", 0, 0.999, 0.0);
   s.resampling.BETA = p.inRange("resample_below_ess", 0, 1, 0.5);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "SightingTracks.h"
 #include "Targets.h"
 
 #include <mrpt/bayes/CParticleFilter.h>
@@ -28,13 +29,14 @@ struct Settings : TargetSettings
   double rangeStd;         ///< [m]; 0: what the log says
   double bearingStd;       ///< [rad]; 0: what the log says
   double correlationTime;  ///< [s] over which sightings of one thing share their error; 0: none do
-  int confirmSightings;    ///< landmarks seen less often are not reported
-  double detection;        ///< chance to see a landmark in view; 0: misses tell nothing
+  SightingTracks::Settings tracking;  ///< nn: what follows a post from scan to scan
+  int confirmSightings;               ///< landmarks seen less often are not reported
+  double detection;                   ///< chance to see a landmark in view; 0: misses tell nothing
   ::mrpt::bayes::CParticleFilter::TParticleFilterOptions resampling;
 
   static Settings from(core::Params& p);
-  /// What multiplies the variances of a thing's sighting this long [s] after its last one: sightings
-  /// that share their error within a time tell no more, all together, than one would.
+  /// What multiplies the variances of a thing's sighting this long [s] after its last one:
+  /// sightings that share their error within a time tell no more, all together, than one would.
   [[nodiscard]] double noiseAfter(double pause) const;
 
   using TargetSettings::ray;

@@ -116,6 +116,15 @@ inline bool innovate(const Eye& eye, const Ray& z, double mx, double my, double 
   return true;
 }
 
+/// The innovation, but for d2, at a pose off the one it was taken at by a small (x, y, heading).
+inline Innovation shifted(const Innovation& o, const Vector3& d)
+{
+  Innovation out = o;
+  out.nuR += o.h11 * d[0] + o.h12 * d[1] - o.turnR * d[2];
+  out.nuB += o.h21 * d[0] + o.h22 * d[1] - o.turnB * d[2];
+  return out;
+}
+
 /// The innovation with the pose's own covariance added to S.
 inline Innovation withPose(const Innovation& o, const Matrix3& poseCov)
 {

@@ -1,0 +1,111 @@
+#include "LandmarkScan.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace slamot::filters::rbpf
+{
+namespace
+{
+constexpr int kFirstHits = 2;  // sightings of a track before it counts: a lone one may be false
+constexpr double kLogTwoPi = 1.8378770664093453;
+
+double mostLikely(const std::vector<Choice>& choices)
+{
+  double most = choices[0].logLikelihood;
+  for (const Choice& c : choices) most = std::max(most, c.logLikelihood);
+  return most;
+}
+
+double logSum(const std::vector<Choice>& choices)
+{
+  const double most = mostLikely(choices);
+  double sum = 0;
+  for (const Choice& c : choices) sum += std::exp(c.logLikelihood - most);
+  return most + std::log(sum);
+}
+
+const Choice& draw(const std::vector<Choice>& choices, double logTotal, math::RandomStream& random)
+{
+  double left = random.uniform();
+  for (const Choice& c : choices)
+    if ((left -= std::exp(c.logLikelihood - logTotal)) < 0) return c;
+  return choices.back();
+}
+}  // namespace
+
+void LandmarkScan::listChoices(const maps::LandmarkMap& map, const Eye& eye,
+                               const PoseUpdate::Result& pose, std::size_t j,
+                               const std::vector<std::int32_t>& matches,
+                               std::vector<Choice>& choices) const
+{
+  choices.assign(1, {kNew, logNew_[j], {}});
+  const Matrix3 poseCov = pose.root * pose.root.transpose();
+  for (const std::uint32_t slot : near_[j])
+  {
+    const auto what = static_cast<std::int32_t>(slot);
+    const maps::Landmark* m = map.find(slot);
+    if (!m || std::find(matches.begin(), matches.end(), what) != matches.end()) continue;
+    Innovation o;
+    // With the sighting's whole noise, as in match().
+    if (!innovate(eye, rays_[j], m->x, m->y, m->cxx, m->cxy, m->cyy, o)) continue;
+    const Innovation now = withPose(shifted(o, pose.shift), poseCov);
+    if (now.d2 <= settings_.gates.outer)
+      choices.push_back({what, -0.5 * (now.d2 + std::log(now.det)) - kLogTwoPi, o});
+  }
+}
+
+double LandmarkScan::matchTracks(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
+                                 std::vector<std::int32_t>& followed, math::RandomStream& random,
+                                 TrackScratch& scratch, std::vector<std::int32_t>& matches) const
+{
+  followed.resize(tracks_.capacity(), kNew);
+  matches.assign(rays_.size(), kRejected);
+  const Matrix3 poseCov = root * root.transpose();
+  PoseUpdate update;
+  auto& open = scratch.open;
+  open.clear();
+  for (std::size_t j = 0; j < rays_.size(); ++j)
+  {
+    std::int32_t& slot = followed[tracks_.place(j)];
+    if (tracks_.hits(j) == 1) slot = kNew;
+    Innovation o;
+    const maps::Landmark* m = slot >= 0 ? map.find(static_cast<std::uint32_t>(slot)) : nullptr;
+    if (m && innovateLandmark(eye, j, static_cast<std::uint32_t>(slot), *m, o) &&
+        withPose(o, poseCov).d2 <= settings_.gates.outer)
+    {
+      matches[j] = slot;
+      update.add(o);
+    }
+    else if (tracks_.hits(j) >= kFirstHits)
+      open.push_back(j);
+  }
+  double logGain = 0;
+  while (!open.empty())
+  {
+    const PoseUpdate::Result pose = update.solve(root);
+    // The sighting that leaves least doubt comes first, so that it helps to tell the others.
+    double leastDoubt = std::numeric_limits<double>::infinity();
+    auto next = open.begin();
+    for (auto it = open.begin(); it != open.end(); ++it)
+    {
+      listChoices(map, eye, pose, *it, matches, scratch.choices);
+      const double doubt = logSum(scratch.choices) - mostLikely(scratch.choices);
+      if (!(doubt < leastDoubt)) continue;
+      leastDoubt = doubt;
+      next = it;
+      scratch.chosen.swap(scratch.choices);
+    }
+    const std::size_t j = *next;
+    const double total = logSum(scratch.chosen);
+    const Choice& choice = draw(scratch.chosen, total, random);
+    matches[j] = choice.what;
+    followed[tracks_.place(j)] =
+        choice.what >= 0 ? choice.what : static_cast<std::int32_t>(newSlots_[j]);
+    logGain += total - choice.logLikelihood;
+    if (choice.what >= 0) update.add(choice.innovation);
+    open.erase(next);
+  }
+  return logGain;
+}
+}  // namespace slamot::filters::rbpf
