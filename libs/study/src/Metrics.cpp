@@ -132,6 +132,17 @@ Value targetLate(const Run& r)
   return overTargets(r, [&](const auto& t) { return partMean(r, t.steps, 0.75, 1); });
 }
 
+/// Of targets unseen for `part` of eval::EvaluationOptions::sinceSeenEdges.
+std::function<Value(const Run&)> targetUnseen(std::size_t part)
+{
+  const auto rmse = [=](const eval::TargetEvaluation& t) -> Value
+  {
+    if (part >= t.sinceSeen.size()) return std::nullopt;
+    return t.sinceSeen[part].errors.positionRmse;
+  };
+  return [=](const Run& r) { return overTargets(r, rmse); };
+}
+
 Value targetTracked(const Run& r)
 {
   return overTargets(r, [](const auto& t) { return t.trackedFraction; });
@@ -194,6 +205,13 @@ const std::vector<Entry>& entries()
       {{"target_late_mean_m", "target position error, last quarter [m]", 4}, targetLate},
       {{"target_relative_mean_m", "target error from the robot, at sightings [m]", 4},
        target(&T::relativeAtSightings, &E::positionMean)},
+      {{"target_relative_rmse_m", "target RMSE from the robot, at sightings [m]", 4},
+       target(&T::relativeAtSightings, &E::positionRmse)},
+      {{"target_unseen_0_1_rmse_m", "target RMSE, seen in the last second [m]", 3},
+       targetUnseen(0)},
+      {{"target_unseen_1_3_rmse_m", "unseen for 1 to 3 s [m]", 3}, targetUnseen(1)},
+      {{"target_unseen_3_10_rmse_m", "unseen for 3 to 10 s [m]", 3}, targetUnseen(2)},
+      {{"target_unseen_10_30_rmse_m", "unseen for 10 to 30 s [m]", 3}, targetUnseen(3)},
       {{"target_nees", "target NEES, mean (3 expected)", 2}, target(&T::all, &E::neesMean)},
       {{"target_nees_median", "target NEES, median (2.37 expected)", 2}, targetNeesMedian},
       {{"target_nees_position", "target position NEES (2 expected)", 2},

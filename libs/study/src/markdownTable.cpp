@@ -65,6 +65,7 @@ std::string meanOf(const Plan& plan, const Outcome& outcome, std::size_t group, 
   const auto s = statistics(outcome.values(plan, group, metric));
   if (s.count == 0) return "-";
   const int d = metrics()[metric].decimals;
+  if (s.count == 1) return fixed(s.mean, d);  // one run has no spread to tell
   return fixed(s.mean, d) + " ± " + fixed(s.halfWidth95, d) + " (" + fixed(s.std, d) + ")";
 }
 
