@@ -20,10 +20,12 @@ using test::makeFilter;
 
 const std::string kDamped = "target_velocity_std_mps = 1\ntarget_velocity_time_s = 1\n";
 
+/// No gate to speak of: a Kalman filter has none.
 std::string keys(const std::string& proposal, int particles = 1)
 {
   return "particles = " + std::to_string(particles) + "\nproposal = " + proposal +
-         "\nassociation = known\n";
+         "\nassociation = known\ngate_probability = 0.999999999999\n"
+         "new_gate_probability = 0.999999999999\n";
 }
 
 core::FilterContext at(const Pose2D& pose)
@@ -104,7 +106,12 @@ TEST_P(Proposal, OneParticleWithExactOdometryIsAnEkfPerLandmark)
   Pose2D pose{2, -1, 3};
   const auto filter = makeFilter("rbpf-slamot", keys(GetParam()) + kDamped, at(pose));
   std::vector<Point2D> truth;
-  for (int i = 0; i < 6; ++i) truth.push_back({random.uniform(-8, 8), random.uniform(-8, 8)});
+  // Half of them are close and seen by a coarse range: near, in terms of their deviations.
+  for (int i = 0; i < 6; ++i)
+  {
+    const double reach = i % 2 ? 4 : 8;
+    truth.push_back({random.uniform(-reach, reach), random.uniform(-reach, reach)});
+  }
   std::vector<LandmarkEkf> ekf(truth.size());
   for (int i = 1; i <= 200; ++i)
   {
@@ -115,10 +122,9 @@ TEST_P(Proposal, OneParticleWithExactOdometryIsAnEkfPerLandmark)
     step.landmarks.emplace();
     for (std::size_t k = 0; k < truth.size(); ++k)
     {
-      // Half of them by a coarse range: then many are near in terms of their deviations.
       const double rangeStd = k % 2 ? 1.0 : 0.15;
       const Vector2 z = noisy(RangeBearing::predict(pose, truth[k]), rangeStd, 0.03, random);
-      if (z[0] < 0.1 || random.uniform() < 0.3) continue;
+      if (z[0] < 2 * rangeStd || random.uniform() < 0.3) continue;
       step.landmarks->sightings.push_back({z[0], z[1], rangeStd, 0.03, static_cast<int>(k)});
       ekf[k].see(pose, z, {rangeStd, 0.03});
     }
@@ -138,8 +144,8 @@ TEST_P(Proposal, OneParticleWithExactOdometryIsAnEkfPerLandmark)
   EXPECT_EQ(landmarks(filter->estimate()).size(), truth.size());
   int seen = 0, near = 0;
   for (const LandmarkEkf& l : ekf) seen += l.sightings, near += l.near;
-  EXPECT_GT(near, 150);
-  EXPECT_GT(seen - near, 400);
+  EXPECT_GT(near, 100);
+  EXPECT_GT(seen - near, 200);
 }
 
 // Sightings of a target that is always far, or always near, in terms of its deviations.
@@ -173,11 +179,10 @@ static void expectThePapersTargetEkf(const std::string& proposal, const RangeBea
         target,
         math::turnThenMove(v + stdV * random.normal(), w + stdW * random.normal(), dt, 0, 0).mean);
     ekf.predict(v, w, stdV, stdW, dt);
-    if (i % 4 == 0)
+    const Vector2 z =
+        noisy(RangeBearing::predict(pose, {target.x, target.y}), rangeStd, bearingStd, random);
+    if (i % 4 == 0 && z[0] > 0)
     {
-      const Vector2 z =
-          noisy(RangeBearing::predict(pose, {target.x, target.y}), rangeStd, bearingStd, random);
-      ASSERT_GT(z[0], 0);
       step.blobs.emplace().blobs.push_back({"target", z[0], z[1], rangeStd, bearingStd, 7});
       const Point2D m = ekf.point();
       ASSERT_EQ(test::linearise(pose, m, ekf.pointCov(), z, model).near, near);
@@ -202,7 +207,7 @@ TEST_P(Proposal, OneParticleWithExactOdometryIsThePapersTargetEkf)
 // Equation (18)'s innovation then is the ray's; all else is the paper's.
 TEST_P(Proposal, OneParticleWithExactOdometryIsATargetEkfAlongTheRayNearBy)
 {
-  expectThePapersTargetEkf(GetParam(), {1.5, 0.02}, true);
+  expectThePapersTargetEkf(GetParam(), {1.3, 0.02}, true);
 }
 
 // Sightings far better than odometry leave nothing to chance: the pose is where they say.

@@ -130,7 +130,8 @@ class SideBySide
       if (case_.knownIds && random_.uniform() < 0.05) z[0] += 3;  // out of every gate
       out.push_back({z[0], math::wrapToPi(z[1]), rangeStd, kBearingStd, id(i)});
     }
-    for (int n = random_.poisson(1.0); n > 0; --n)
+    // Never none at all: weights may then be equal, and no particle the best.
+    for (int n = random_.poisson(1.0) + out.empty(); n > 0; --n)
       out.push_back({random_.uniform(0.5, 6), random_.uniform(-3, 3), kRangeStd, kBearingStd,
                      case_.knownIds ? 100 + clutter_++ : core::kNoId});
     return out;
