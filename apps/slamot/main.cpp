@@ -4,12 +4,26 @@
 #include <slamot/core/version.h>
 #include <slamot/filters/registerAll.h>
 
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 
 namespace slamot::apps
 {
 std::atomic<bool> interrupted{false};
+
+namespace
+{
+/// CLI takes too large a number for the largest, and names a wrong one's limits with 300 digits.
+std::string checkSeed(const std::string& text)
+{
+  std::uint64_t seed = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, seed);
+  if (error == std::errc{} && end == last) return {};
+  return "'" + text + "' is not a whole number from 0 to 18446744073709551615";
+}
+}  // namespace
 
 void CommonOptions::addTo(CLI::App& command)
 {
@@ -18,7 +32,7 @@ void CommonOptions::addTo(CLI::App& command)
       .add_option_function<std::uint64_t>(
           "--seed", [this](std::uint64_t s) { seed = s, seedGiven = true; },
           "Seed of all randomness (default 1)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Validator(checkSeed, ""))
       ->type_name("N");
   command.add_option("--threads", threads, "Threads; results do not depend on them")
       ->check(CLI::Range(1, 1024))
@@ -74,8 +88,12 @@ int runCommand(int argc, char** argv)
   }
   catch (const CLI::ParseError& e)
   {
-    return fail(core::ExitStatus::kConfig,
-                std::string("command line: ") + e.what() + "; see slamot --help");
+    // CLI would say that a command is missing.
+    const std::string first = argc > 1 ? argv[1] : "-";
+    const auto isFirst = [&](const CLI::App* command) { return command->check_name(first); };
+    const bool unknown = first[0] != '-' && app.get_subcommands(isFirst).empty();
+    const std::string what = unknown ? "'" + first + "' is no command" : e.what();
+    return fail(core::ExitStatus::kConfig, "command line: " + what + "; see slamot --help");
   }
   return status;
 }

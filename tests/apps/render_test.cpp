@@ -42,7 +42,9 @@ TEST(SlamotRender, NamesWhatIsWrong)
             "slamot: error: command line --output a.xyz: not a picture's name; end it in .png\n");
   const auto absent = slamot("render nothing -o a.png", folder.file(""));
   EXPECT_EQ(absent.status, 2);
-  EXPECT_EQ(absent.text, "slamot: error: nothing: not a scene that can be read\n");
+  EXPECT_EQ(absent.text,
+            "slamot: error: nothing: is not a scene that can be read; give a result folder or a "
+            ".3Dscene file\n");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.png")));
 }
 }  // namespace

@@ -124,7 +124,8 @@ void renderScene(const std::string& scenePath, const std::string& pngPath,
 {
   MrptScene scene;
   if (!scene.loadFromFile(scenePath))
-    throw Error(ExitStatus::kUnreadable, scenePath, "not a scene that can be read");
+    throw Error(ExitStatus::kUnreadable, scenePath, "is not a scene that can be read",
+                "give a result folder or a .3Dscene file");
   CImage picture;
   try
   {
