@@ -8,7 +8,7 @@ namespace slamot::results
 {
 namespace
 {
-constexpr int kLeft = 74, kRight = 18, kTitle = 26, kLegendRow = 21, kGap = 12, kAxisFoot = 56;
+constexpr int kLeft = 88, kRight = 18, kTitle = 26, kLegendRow = 21, kGap = 12, kAxisFoot = 56;
 
 /// Grows by what is finite and, on a logarithmic axis, positive.
 void cover(Range& range, const std::vector<double>& values, bool logarithmic)
