@@ -44,6 +44,28 @@ void printStarts(const core::Starts& starts)
     std::printf("start     not given: the robot starts at the origin\n");
 }
 
+std::string part(std::size_t n, std::size_t all)
+{
+  return n == all ? "all" : n == 0 ? "none" : std::to_string(n);
+}
+
+void printSightings(const char* heading, const char* what, const mrpt::SightingInfo& seen)
+{
+  if (seen.scans == 0) return;
+  std::printf("%-9s %zu %s in %zu scans, of which %zu saw nothing", heading, seen.count, what,
+              seen.scans, seen.empty);
+  if (seen.count > 0) std::printf("; %s with identity", part(seen.identified, seen.count).c_str());
+  if (seen.ranged < seen.count)
+    std::printf(", %s with range", part(seen.ranged, seen.count).c_str());
+  const char* separator = "; labelled ";
+  for (const std::string& label : seen.labels)
+  {
+    std::printf("%s%s", separator, label.c_str());
+    separator = ", ";
+  }
+  std::printf("\n");
+}
+
 void printSensors(const std::vector<mrpt::SensorInfo>& sensors)
 {
   std::printf("%-40s %-12s %9s %9s\n", "class", "label", "count", "rate/Hz");
@@ -65,6 +87,8 @@ void print(const std::string& path, const mrpt::RawlogInfo& info)
   std::printf("duration  %s s, from %s s to %s s\n", number("%.3f", duration).c_str(),
               number("%.3f", info.firstTime).c_str(), number("%.3f", info.lastTime).c_str());
   printStarts(info.starts);
+  printSightings("landmarks", "sightings", info.landmarks);
+  printSightings("targets", "blobs", info.blobs);
   printSensors(info.sensors);
   for (const std::string& note : info.notes) std::printf("problem   %s\n", note.c_str());
   if (info.notes.empty() && !info.error) std::printf("problems  none found\n");

@@ -11,6 +11,14 @@ namespace
 {
 namespace fs = std::filesystem;
 
+core::Blob blob(const std::string& label, int id, std::optional<double> range)
+{
+  core::Blob out;
+  out.label = label, out.id = id, out.range = range;
+  out.rangeStd = 0.1, out.bearingStd = 0.01;
+  return out;
+}
+
 class SlamotInfo : public ::testing::Test
 {
  protected:
@@ -28,6 +36,8 @@ class SlamotInfo : public ::testing::Test
       step.odometry = math::turnThenMove(1, 0.2, 0.1, 0.1, 0.05);
       if (i % 4 == 0)
         step.landmarks.emplace().sightings.push_back({2, 0.1, 0.1, 0.01, core::kNoId});
+      if (i == 10 || i == 20) step.blobs.emplace();
+      if (i == 20) step.blobs->blobs = {blob("mate", core::kNoId, 2.0), blob("target", 3, {})};
       writer.write(step);
     }
     writer.close();
@@ -52,6 +62,13 @@ TEST_F(SlamotInfo, TellsSensorsRatesDurationAndStart)
   EXPECT_TRUE(has(o, "which make 20 steps")) << o.text;
   EXPECT_TRUE(has(o, "duration  1.900 s, from 0.100 s to 2.000 s")) << o.text;
   EXPECT_TRUE(has(o, "mrpt::obs::CObservationBearingRange      LANDMARKS            5      2.50"))
+      << o.text;
+  EXPECT_TRUE(
+      has(o, "landmarks 5 sightings in 5 scans, of which 0 saw nothing; none with identity\n"))
+      << o.text;
+  EXPECT_TRUE(has(o,
+                  "targets   2 blobs in 2 scans, of which 1 saw nothing; 1 with identity, 1 with "
+                  "range; labelled mate, target\n"))
       << o.text;
   EXPECT_TRUE(has(o, "start     target 3 at x 2.500 m")) << o.text;
   EXPECT_TRUE(has(o, "problems  none found")) << o.text;

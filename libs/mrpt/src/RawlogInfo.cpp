@@ -15,6 +15,7 @@ namespace slamot::mrpt
 namespace
 {
 constexpr std::size_t kMostSensors = 1000;  // further labels count as one
+constexpr std::size_t kMostLabels = 20;     // further ones are not told
 constexpr double kShortestStep = 1e-4;      // [s]; on average, below it times are not of the drive
 
 // Fit for a terminal, whatever a damaged or strange log holds.
@@ -58,6 +59,31 @@ class SensorTable
  private:
   std::map<std::pair<std::string, std::string>, SensorInfo> sensors_;
 };
+
+void count(const core::Step& step, RawlogInfo& info)
+{
+  if (step.landmarks)
+  {
+    SightingInfo& seen = info.landmarks;
+    ++seen.scans;
+    seen.empty += step.landmarks->sightings.empty() ? 1 : 0;
+    seen.count += step.landmarks->sightings.size();
+    seen.ranged = seen.count;
+    for (const core::Sighting& s : step.landmarks->sightings)
+      seen.identified += s.id != core::kNoId ? 1 : 0;
+  }
+  if (!step.blobs) return;
+  SightingInfo& seen = info.blobs;
+  ++seen.scans;
+  seen.empty += step.blobs->blobs.empty() ? 1 : 0;
+  seen.count += step.blobs->blobs.size();
+  for (const core::Blob& b : step.blobs->blobs)
+  {
+    seen.identified += b.id != core::kNoId ? 1 : 0;
+    seen.ranged += b.range ? 1 : 0;
+    if (seen.labels.size() < kMostLabels) seen.labels.insert(printable(b.label));
+  }
+}
 
 // With stand-ins for what a config would give, so that their want does not hide other faults.
 RawlogSource::Options lenient()
@@ -111,13 +137,14 @@ RawlogInfo inspectRawlog(const std::string& path)
 {
   RawlogInfo info;
   SensorTable table;
-  const LogScan scan = scanLog(path, lenient(),
-                               [&](const Entry& entry)
-                               {
-                                 ++info.entries;
-                                 if (entry.kind != Entry::Kind::kComment)
-                                   for (const Entry::Part& part : entry.parts) table.add(part);
-                               });
+  const auto onEntry = [&](const Entry& entry)
+  {
+    ++info.entries;
+    if (entry.kind == Entry::Kind::kComment) return;
+    for (const Entry::Part& part : entry.parts) table.add(part);
+  };
+  const LogScan scan =
+      scanLog(path, lenient(), onEntry, [&](const core::Step& step) { count(step, info); });
   std::error_code none;
   if (std::filesystem::is_regular_file(path, none))
     info.bytes = std::filesystem::file_size(path, none);

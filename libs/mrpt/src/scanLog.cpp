@@ -5,16 +5,16 @@
 namespace slamot::mrpt
 {
 LogScan scanLog(const std::string& path, const RawlogSource::Options& options,
-                const std::function<void(const Entry&)>& onEntry)
+                const std::function<void(const Entry&)>& onEntry,
+                const std::function<void(const core::Step&)>& onStep)
 {
   LogScan out;
   std::optional<StepAssembler> pass;
   try
   {
     pass.emplace(path, options, nullptr, onEntry);
-    while (pass->next())
-    {
-    }
+    while (const auto step = pass->next())
+      if (onStep) onStep(*step);
   }
   catch (const core::Error& e)
   {

@@ -14,9 +14,10 @@ struct LogScan
   std::optional<core::Error> error;  ///< why there is no more
 };
 
-/// \param onEntry is shown every entry.
+/// \param onEntry is shown every entry, \param onStep every step.
 [[nodiscard]] LogScan scanLog(const std::string& path, const RawlogSource::Options& options,
-                              const std::function<void(const Entry&)>& onEntry = {});
+                              const std::function<void(const Entry&)>& onEntry = {},
+                              const std::function<void(const core::Step&)>& onStep = {});
 
 /// Whether the log gives increments but no covariance.
 [[nodiscard]] bool lacksCovariance(const LogFacts& facts);

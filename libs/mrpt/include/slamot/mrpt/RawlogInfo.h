@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,15 @@ struct SensorInfo
   [[nodiscard]] std::optional<double> rate() const;
 };
 
+/// What sensors told of landmarks, or of targets.
+struct SightingInfo
+{
+  std::size_t scans = 0, empty = 0;        ///< empty: that saw nothing
+  std::size_t count = 0;                   ///< sightings or blobs
+  std::size_t identified = 0, ranged = 0;  ///< those with an identity, with a range
+  std::set<std::string> labels;            ///< of blobs
+};
+
 /// What is in a rawlog; with `error`, of the part before it.
 struct RawlogInfo
 {
@@ -34,6 +44,7 @@ struct RawlogInfo
   std::size_t dropped = 0;                    ///< sightings and blobs, as a run would
   std::optional<double> firstTime, lastTime;  ///< of steps [s]
   std::vector<SensorInfo> sensors;            ///< by class and label
+  SightingInfo landmarks, blobs;
   core::Starts starts;
   std::vector<std::string> notes;    ///< problems that a run can live with, or a setting mends
   std::optional<core::Error> error;  ///< the problem that no run gets beyond
