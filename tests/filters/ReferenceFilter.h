@@ -44,12 +44,21 @@ class ReferenceFilter
 
   std::vector<Particle> particles;
   Gaussian<Pose2D> pending;  ///< odometry since poses were last sampled
-  int near = 0, far = 0;     ///< paired sightings by their coordinates
+  /// The first scan's pose, that scan's only use for its covariance: the map is relative to it.
+  Gaussian<Pose2D> frame;
+  int near = 0, far = 0;  ///< paired sightings by their coordinates
 
   /// \param priors the poses before the scan, \param poses those after it.
   void scan(const core::LandmarkScan& scan, const std::vector<Pose2D>& priors,
             const std::vector<Pose2D>& poses)
   {
+    if (settings_.informed && !begun_)
+    {
+      const Matrix3 R = math::poseRotation(particles[0].pose.phi);
+      frame = {priors[0], R * pending.cov * R.transpose()};
+      pending.cov.setZero();
+    }
+    begun_ = true;
     for (std::size_t i = 0; i < particles.size(); ++i)
     {
       Particle& p = particles[i];
@@ -62,6 +71,24 @@ class ReferenceFilter
       update(p, scan);
     }
     pending = {};
+  }
+
+  /// What the frame's uncertainty adds to the covariance of a pose at (x, y): by how much it moves
+  /// if the frame is moved and turned about the first scan's place.
+  [[nodiscard]] Matrix3 frameCovAt(double x, double y) const
+  {
+    Matrix3 moved;
+    const Pose2D local = math::between(frame.mean, {x, y, 0});
+    constexpr double h = 1e-5;
+    for (int k = 0; k < 3; ++k)
+    {
+      Pose2D ahead = frame.mean, behind = frame.mean;
+      (k == 0 ? ahead.x : k == 1 ? ahead.y : ahead.phi) += h;
+      (k == 0 ? behind.x : k == 1 ? behind.y : behind.phi) -= h;
+      const Pose2D to = math::compose(ahead, local), from = math::compose(behind, local);
+      moved.col(k) = Vector3(to.x - from.x, to.y - from.y, to.phi - from.phi) / (2 * h);
+    }
+    return moved * frame.cov * moved.transpose();
   }
 
  private:
@@ -154,5 +181,6 @@ class ReferenceFilter
   }
 
   Settings settings_;
+  bool begun_ = false;
 };
 }  // namespace slamot::test

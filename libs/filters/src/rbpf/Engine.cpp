@@ -40,7 +40,11 @@ void BestMap::visit(const std::function<void(const core::LandmarkEstimate&)>& vi
       });
   std::sort(confirmed.begin(), confirmed.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
-  for (const auto& m : confirmed) visitor(m);
+  for (auto& m : confirmed)
+  {
+    frame.addTo(m.position);
+    visitor(m);
+  }
 }
 
 std::size_t BestMap::size() const
@@ -151,6 +155,7 @@ void EngineOf<Motion>::move(const Gaussian<Pose2D>& increment)
   pending_ = math::compose(pending_, increment);
   scan_.move(increment);
   if (settings_.informed && std::sqrt(pending_.cov(2, 2)) < kLongestUnsampledTurn) return;
+  placed_ = true;
   const Matrix3 L = math::squareRoot(pending_.cov);
   const Pose2D mean = pending_.mean;
   workers_.forEach(particles_.size(),
@@ -181,6 +186,9 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
   for (std::size_t i = 0; i < particles_.size(); ++i)
     priors_[i] =
         settings_.informed ? math::compose(particles_[i].pose, pending_.mean) : particles_[i].pose;
+  const bool seesAny = (step.landmarks && !step.landmarks->sightings.empty()) ||
+                       (step.blobs && !step.blobs->blobs.empty());
+  if (settings_.informed && seesAny) settleFrame();
   if (settings_.informed) pendingRoot_ = math::squareRoot(pending_.cov);
   scan_.begin(step.landmarks ? &*step.landmarks : nullptr, step.time, priors_, pending_);
   blobRays_.rays.clear();
@@ -200,6 +208,19 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
   scan_.finish(matches);
   normalise();
   if (step.blobs) settleTracks(step.time);
+}
+
+// With neither a map nor a target there is nothing yet that a pose could be told by.
+template <class Motion>
+void EngineOf<Motion>::settleFrame()
+{
+  if (!placed_ && tracks_.list().empty())
+  {
+    const Matrix3 R = math::poseRotation(particles_[0].pose.phi);
+    bestMap_.frame = MapFrame({priors_[0], R * pending_.cov * R.transpose()});
+    pending_.cov.setZero();
+  }
+  placed_ = true;
 }
 
 template <class Motion>
@@ -392,6 +413,7 @@ void EngineOf<Motion>::updateEstimate(double time, bool afterScan)
               R * pending_.cov * R.transpose());
   }
   estimate_.robot = robot.gaussian();
+  bestMap_.frame.addTo(estimate_.robot);
 
   estimate_.targets.clear();
   for (std::size_t t = 0; t < tracks_.list().size(); ++t)
@@ -400,6 +422,7 @@ void EngineOf<Motion>::updateEstimate(double time, bool afterScan)
     TargetMoments<Motion> moments;
     for (std::size_t i = 0; i < n; ++i) moments.add(weights_[i], particles_[i].targets[t]);
     estimate_.targets.push_back(moments.estimate(tracks_.list()[t]));
+    bestMap_.frame.addTo(estimate_.targets.back());
   }
   std::sort(estimate_.targets.begin(), estimate_.targets.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "LandmarkScan.h"
+#include "MapFrame.h"
 #include "ParticleSet.h"
 #include "Settings.h"
 #include "Workers.h"
@@ -33,6 +34,7 @@ class BestMap : public core::LandmarkView
   [[nodiscard]] std::size_t size() const override;
 
   maps::LandmarkMap map;
+  MapFrame frame;
 
  private:
   const Settings& settings_;
@@ -69,6 +71,7 @@ class EngineOf : public RbpfSlamot::Engine
   void move(const Gaussian<Pose2D>& increment);
   void predictTargets(double dt);
   void takeScan(const core::Step& step);
+  void settleFrame();
   void updateParticle(std::size_t i, int lane);
   double weighTargets(std::size_t i, const Eye& eye, PoseUpdate& update);
   void samplePose(std::size_t i, const Matrix3& root, const PoseUpdate& update, double& logWeight);
@@ -92,6 +95,7 @@ class EngineOf : public RbpfSlamot::Engine
   BlobRays blobRays_;
   Gaussian<Pose2D> pending_;     // informed: motion since the poses were last sampled
   Matrix3 pendingRoot_;          // a square root of its covariance, for the scan
+  bool placed_ = false;          // informed: a pose has been sampled, or the map begun
   std::vector<Pose2D> priors_;   // each particle's pose before the scan
   std::vector<double> weights_;  // normalised, after the scan
   std::vector<Outcome> outcomes_;
