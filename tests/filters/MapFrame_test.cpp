@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <slamot/math/random.h>
 #include <slamot/models/RangeBearing.h>
+#include <slamot/models/TargetMotion.h>
 
 #include "filterRig.h"
 
@@ -67,6 +68,46 @@ TEST(MapFrame, MovesCovariancesAsARigidMotionDoes)
   Gaussian<Point2D> point{{4, -1}, Matrix2::Zero()};
   frame.addTo(point);
   EXPECT_LT((point.cov - (added.topLeftCorner<2, 2>())).norm(), 1e-12);
+}
+
+TEST(MapFrame, ATargetSharesItsDoubtWithHeadingAndVelocity)
+{
+  const Matrix3 cov = Vector3(0.01, 0.02, 0.04).asDiagonal();
+  models::DampedVelocityTarget::State damped;
+  damped.x << 1, 2, 0.5, -2;
+  damped.P.setZero();
+  models::DampedVelocityTarget::widen(damped, cov);
+  // Turned by d, a velocity (vx, vy) becomes (vx - d vy, vy + d vx).
+  Eigen::Matrix4d expected = Eigen::Vector4d(0.01, 0.02, 0, 0).asDiagonal();
+  const Vector2 turned(2, 0.5);
+  expected.bottomRightCorner<2, 2>() = 0.04 * turned * turned.transpose();
+  EXPECT_LT((damped.P - expected).norm(), 1e-12);
+
+  models::DifferentialDriveTarget::State driving;
+  driving.x << 1, 2, 0.3, 1, 0.1;
+  driving.P.setZero();
+  models::DifferentialDriveTarget::widen(driving, cov);
+  EXPECT_LT((driving.P.topLeftCorner<3, 3>() - cov).norm(), 1e-12);
+  EXPECT_EQ((driving.P.bottomRightCorner<2, 2>().norm()), 0.0);
+}
+
+TEST(MapFrame, AKnownTargetDoesNotPullTheFirstPose)
+{
+  core::FilterContext context;
+  auto& start = context.starts.targets[7];
+  start.value[core::ObjectStart::kX] = 3;
+  start.value[core::ObjectStart::kY] = 0;
+  context.starts.time = 0;
+  const auto filter = makeFilter("rbpf-slamot", kKeys, context);
+  filter->process(moved(0.1, 0.5));
+  const Gaussian<Pose2D> before = filter->estimate().robot;
+  core::Step step = seeing(0.2, before.mean);
+  step.blobs.emplace().blobs = {{"target", 2.5, 0.2, 0.1, 0.02, 7}};
+  filter->process(step);
+  const auto& e = filter->estimate();
+  EXPECT_LT((e.robot.cov - before.cov).norm(), 1e-9);
+  ASSERT_EQ(e.targets.size(), 1u);
+  EXPECT_GT((e.targets[0].pose.cov.topLeftCorner<2, 2>().trace()), before.cov(0, 0));
 }
 
 TEST(MapFrame, TheFirstPosesDoubtStaysHoweverOftenParticlesAreResampled)

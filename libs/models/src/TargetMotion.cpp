@@ -127,6 +127,12 @@ void DifferentialDriveTarget::afterCorrection(State& s, const Gaussian<Point2D>*
   s.headed = true;
 }
 
+void DifferentialDriveTarget::widen(State& s, const Matrix3& poseCov)
+{
+  s.P.topLeftCorner<3, 3>() += poseCov;
+  s.anchorCov += poseCov.topLeftCorner<2, 2>();
+}
+
 Gaussian<Pose2D> DifferentialDriveTarget::pose(const State& s)
 {
   Gaussian<Pose2D> out{{s.x[0], s.x[1], s.x[2]}, s.P.topLeftCorner<3, 3>()};
@@ -198,6 +204,15 @@ void DampedVelocityTarget::predict(State& s, double dt) const
     s.P(axis + 2, axis + 2) += qvv;
   }
   s.P = (0.5 * (s.P + s.P.transpose())).eval();
+}
+
+void DampedVelocityTarget::widen(State& s, const Matrix3& poseCov)
+{
+  Eigen::Matrix<double, 4, 3> G = Eigen::Matrix<double, 4, 3>::Zero();  // a turn turns the velocity
+  G.topLeftCorner<2, 2>().setIdentity();
+  G(2, 2) = -s.x[3];
+  G(3, 2) = s.x[2];
+  s.P += G * poseCov * G.transpose();
 }
 
 Gaussian<Pose2D> DampedVelocityTarget::pose(const State& s)

@@ -210,17 +210,19 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
   if (step.blobs) settleTracks(step.time);
 }
 
-// With neither a map nor a target there is nothing yet that a pose could be told by.
+// Before there is a map, little can tell a pose: only targets whose start is known in the map. They
+// are as uncertain as the frame then, seen from the robot, and that they may tell of it is left
+// out.
 template <class Motion>
 void EngineOf<Motion>::settleFrame()
 {
-  if (!placed_ && tracks_.list().empty())
-  {
-    const Matrix3 R = math::poseRotation(particles_[0].pose.phi);
-    bestMap_.frame = MapFrame({priors_[0], R * pending_.cov * R.transpose()});
-    pending_.cov.setZero();
-  }
+  if (placed_) return;
   placed_ = true;
+  const Matrix3 R = math::poseRotation(particles_[0].pose.phi);
+  bestMap_.frame = MapFrame({priors_[0], R * pending_.cov * R.transpose()});
+  pending_.cov.setZero();
+  for (std::size_t i = 0; i < particles_.size(); ++i)
+    for (State& t : particles_[i].targets) motion_.widen(t, bestMap_.frame.covAt(t.x[0], t.x[1]));
 }
 
 template <class Motion>

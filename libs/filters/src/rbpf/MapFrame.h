@@ -15,15 +15,16 @@ class MapFrame
   /// \param firstPose with the covariance that the first scan was taken with, in map axes.
   explicit MapFrame(const Gaussian<Pose2D>& firstPose) : first_(firstPose) {}
 
-  void addTo(Gaussian<Pose2D>& pose) const
-  {
-    const Matrix3 T = lever(pose.mean.x, pose.mean.y);
-    pose.cov += T * first_.cov * T.transpose();
-  }
+  void addTo(Gaussian<Pose2D>& pose) const { pose.cov += covAt(pose.mean.x, pose.mean.y); }
   void addTo(Gaussian<Point2D>& point) const
   {
-    const Matrix3 T = lever(point.mean.x, point.mean.y);
-    point.cov += (T * first_.cov * T.transpose()).topLeftCorner<2, 2>();
+    point.cov += covAt(point.mean.x, point.mean.y).topLeftCorner<2, 2>();
+  }
+  /// What it adds to the covariance of a pose at (x, y).
+  [[nodiscard]] Matrix3 covAt(double x, double y) const
+  {
+    const Matrix3 T = lever(x, y);
+    return T * first_.cov * T.transpose();
   }
   void addTo(core::TargetEstimate& target) const
   {

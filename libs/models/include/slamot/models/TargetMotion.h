@@ -71,6 +71,8 @@ class DifferentialDriveTarget
 
   [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
   [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
+  /// Adds the uncertainty of a small rigid motion of the target, given by the covariance of its pose.
+  static void widen(State& s, const Matrix3& poseCov);
 
  private:
   Params params_;
@@ -99,6 +101,7 @@ class DampedVelocityTarget
 
   [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
   [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
+  static void widen(State& s, const Matrix3& poseCov);
 
  private:
   Params params_;
