@@ -196,7 +196,7 @@ TEST(ExitStatus, AnInterruptedRunLeavesAMarkedResultAndPlainProgressLines)
   const std::string text =
       place.shell("'" SLAMOT_PROGRAM "' " + kRbpf +
                   "mine.rawlog --set rbpf-slamot.particles=40000 -o out > said 2>&1 &\n"
-                  "for i in $(seq 600); do grep -q % said && break; sleep 0.1; done\n"
+                  "for i in $(seq 600); do grep -qs % said && break; sleep 0.1; done\n"
                   "kill -INT $!\nwait $!\necho status $?\n");
   EXPECT_EQ(text, "status 130\n");
   const std::string said = place.read("said");
