@@ -14,7 +14,8 @@ namespace
 {
 using namespace slamot;
 
-/// A field of landmarks, as dense whatever its size, in tiles of 20 that a robot in their middle sees.
+/// A field of landmarks, as dense whatever its size, in tiles of 20 that a robot in their middle
+/// sees.
 class Field
 {
  public:
@@ -52,8 +53,9 @@ class Field
     for (int i = from; i < end; ++i)
     {
       const auto z = models::RangeBearing::predict(robot_, points_[static_cast<std::size_t>(i)]);
-      step.landmarks->sightings.push_back({z[0] + 0.1 * random.normal(), z[1] + 0.01 * random.normal(), 0.1,
-                                           0.01, known ? i : core::kNoId});
+      step.landmarks->sightings.push_back({z[0] + 0.1 * random.normal(),
+                                           z[1] + 0.01 * random.normal(), 0.1, 0.01,
+                                           known ? i : core::kNoId});
     }
     return step;
   }
@@ -69,7 +71,8 @@ class Field
 std::unique_ptr<core::Filter> makeFilter(int particles, bool known, bool informed, int threads)
 {
   core::Config config = core::Config::parse("[rbpf-slamot]\n", "bench");
-  const auto set = [&](const char* key, const std::string& value) { config.set("rbpf-slamot", key, value); };
+  const auto set = [&](const char* key, const std::string& value)
+  { config.set("rbpf-slamot", key, value); };
   set("particles", std::to_string(particles));
   set("association", known ? "known" : "nn");
   set("proposal", informed ? "informed" : "motion");
@@ -81,8 +84,9 @@ std::unique_ptr<core::Filter> makeFilter(int particles, bool known, bool informe
   return std::make_unique<filters::RbpfSlamot>(params, context);
 }
 
-/// A drive past all landmarks to the first ones, half of each scan seen before, with a good odometer:
-/// else the particles' maps drift apart over kilometres, and a step's time would tell of that too.
+/// A drive past all landmarks to the first ones, half of each scan seen before, with a good
+/// odometer: else the particles' maps drift apart over kilometres, and a step's time would tell of
+/// that too.
 void fillMap(core::Filter& filter, Field& field, bool known)
 {
   for (int from = field.size() - Field::kInView; from >= 0; from -= Field::kInView / 2)
@@ -106,15 +110,31 @@ void step(benchmark::State& state, bool known, bool informed)
       benchmark::Counter(double(state.iterations()) * particles * Field::kInView,
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
-void knownMotion(benchmark::State& s) { step(s, true, false); }
-void knownInformed(benchmark::State& s) { step(s, true, true); }
-void unknownMotion(benchmark::State& s) { step(s, false, false); }
-void unknownInformed(benchmark::State& s) { step(s, false, true); }
+void knownMotion(benchmark::State& s)
+{
+  step(s, true, false);
+}
+void knownInformed(benchmark::State& s)
+{
+  step(s, true, true);
+}
+void unknownMotion(benchmark::State& s)
+{
+  step(s, false, false);
+}
+void unknownInformed(benchmark::State& s)
+{
+  step(s, false, true);
+}
 BENCHMARK(knownMotion)->ArgNames({"landmarks", "threads"})->Args({100, 1})->Args({10000, 1});
 BENCHMARK(knownInformed)->ArgNames({"landmarks", "threads"})->Args({100, 1})->Args({10000, 1});
 BENCHMARK(unknownMotion)->ArgNames({"landmarks", "threads"})->Args({100, 1})->Args({10000, 1});
 BENCHMARK(unknownInformed)->ArgNames({"landmarks", "threads"})->Args({100, 1})->Args({10000, 1});
-BENCHMARK(knownInformed)->ArgNames({"landmarks", "threads"})->Args({100, 1})->Args({100, 2})->UseRealTime()
+BENCHMARK(knownInformed)
+    ->ArgNames({"landmarks", "threads"})
+    ->Args({100, 1})
+    ->Args({100, 2})
+    ->UseRealTime()
     ->Name("knownInformed/wall");
 
 /// The floor: 2x2 Kalman updates with given innovation and Jacobian, arrays of numbers, no map.
@@ -130,12 +150,14 @@ void bareUpdates(benchmark::State& state)
       const double h11 = x[i] * ir, h12 = y[i] * ir, h21 = -h12 * ir, h22 = h11 * ir;
       const double a1 = xx[i] * h11 + xy[i] * h12, a2 = xy[i] * h11 + yy[i] * h12;
       const double b1 = xx[i] * h21 + xy[i] * h22, b2 = xy[i] * h21 + yy[i] * h22;
-      const double s11 = h11 * a1 + h12 * a2 + 0.01, s12 = h21 * a1 + h22 * a2, s22 = h21 * b1 + h22 * b2 + 1e-4;
+      const double s11 = h11 * a1 + h12 * a2 + 0.01, s12 = h21 * a1 + h22 * a2,
+                   s22 = h21 * b1 + h22 * b2 + 1e-4;
       const double det = s11 * s22 - s12 * s12, id = 1 / det;
       const double nr = 2.236 - r, nb = 1.107 - std::atan2(y[i], x[i]);
       const double k11 = (a1 * s22 - b1 * s12) * id, k12 = (b1 * s11 - a1 * s12) * id;
       const double k21 = (a2 * s22 - b2 * s12) * id, k22 = (b2 * s11 - a2 * s12) * id;
-      weight[i / 20] -= 0.5 * ((s22 * nr * nr - 2 * s12 * nr * nb + s11 * nb * nb) * id + std::log(det));
+      weight[i / 20] -=
+          0.5 * ((s22 * nr * nr - 2 * s12 * nr * nb + s11 * nb * nb) * id + std::log(det));
       x[i] += k11 * nr + k12 * nb;
       y[i] += k21 * nr + k22 * nb;
       // The covariance is put back up, or after many rounds nothing would be left to update.
@@ -181,7 +203,10 @@ void resample(benchmark::State& state)
     }
   }
 }
-BENCHMARK(resample)->ArgNames({"particles", "landmarks"})->Args({1000, 1000})->Unit(benchmark::kMicrosecond);
+BENCHMARK(resample)
+    ->ArgNames({"particles", "landmarks"})
+    ->Args({1000, 1000})
+    ->Unit(benchmark::kMicrosecond);
 
 /// 1000 particles and 10 000 landmarks: the maps' memory in MB, live nodes and what waits to be
 /// collected.  A scan sees 20, the next ones `advance` others: 5 is a drive that sees each for four
@@ -203,7 +228,8 @@ void memory(benchmark::State& state)
   }
   state.counters["maps_MB"] = most / 1e6;
 }
-BENCHMARK(memory)->ArgName("advance")->Arg(5)->Arg(20)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(memory)->ArgName("advance")->Arg(5)->Arg(20)->Iterations(1)->Unit(
+    benchmark::kMillisecond);
 }  // namespace
 
 BENCHMARK_MAIN();

@@ -29,7 +29,8 @@ double elapsed(const core::Step& step, const core::Estimate& last)
 }  // namespace
 
 OdometryTarget::OdometryTarget(core::Params& params, const core::FilterContext& context)
-    : follower_(TargetFollower::make(params, context.starts)), estimate_(firstEstimate(context.starts))
+    : follower_(TargetFollower::make(params, context.starts)),
+      estimate_(firstEstimate(context.starts))
 {
   estimate_.targets = follower_->estimates(estimate_.robot);
 }
@@ -52,7 +53,8 @@ TruePoseTarget::TruePoseTarget(core::Params& params, const core::FilterContext& 
       estimate_(firstEstimate(context.starts))
 {
   if (!truePose_)
-    throw core::Error(core::ExitStatus::kConfig, "true-pose-target", "the robot's true path is missing",
+    throw core::Error(core::ExitStatus::kConfig, "true-pose-target",
+                      "the robot's true path is missing",
                       "put robot.tum into the log's .truth folder");
   estimate_.targets = follower_->estimates(estimate_.robot);
 }

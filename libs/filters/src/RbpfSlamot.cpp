@@ -6,15 +6,29 @@ RbpfSlamot::RbpfSlamot(core::Params& params, const core::FilterContext& context)
 {
   const rbpf::Settings settings = rbpf::Settings::from(params);
   engine_ = std::visit(
-      [&](const auto& motion) -> std::unique_ptr<Engine> {
-        return std::make_unique<rbpf::EngineOf<std::decay_t<decltype(motion)>>>(settings, motion, context);
+      [&](const auto& motion) -> std::unique_ptr<Engine>
+      {
+        return std::make_unique<rbpf::EngineOf<std::decay_t<decltype(motion)>>>(settings, motion,
+                                                                                context);
       },
       models::targetMotionFrom(params));
 }
 RbpfSlamot::~RbpfSlamot() = default;
 
-core::Update RbpfSlamot::process(const core::Step& step) { return engine_->process(step); }
-core::Estimate RbpfSlamot::estimate() const { return engine_->estimate(); }
-std::vector<core::WeightedPose> RbpfSlamot::particles() const { return engine_->particles(); }
-std::size_t RbpfSlamot::mapBytes() const { return engine_->mapBytes(); }
+core::Update RbpfSlamot::process(const core::Step& step)
+{
+  return engine_->process(step);
+}
+core::Estimate RbpfSlamot::estimate() const
+{
+  return engine_->estimate();
+}
+std::vector<core::WeightedPose> RbpfSlamot::particles() const
+{
+  return engine_->particles();
+}
+std::size_t RbpfSlamot::mapBytes() const
+{
+  return engine_->mapBytes();
+}
 }  // namespace slamot::filters

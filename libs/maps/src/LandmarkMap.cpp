@@ -12,7 +12,7 @@ using detail::Node;
 
 namespace
 {
-constexpr std::size_t kBlock = 256;            // nodes allocated at once
+constexpr std::size_t kBlock = 256;             // nodes allocated at once
 constexpr std::size_t kSmallestHarvest = 4096;  // nodes worth a collection
 }  // namespace
 
@@ -158,7 +158,10 @@ void LandmarkMap::visit(const std::function<void(std::uint32_t, const Landmark&)
   visitNode(root_, depth_, 0, visitor);
 }
 
-LandmarkCollector::LandmarkCollector(LandmarkPool& pool) : pool_(pool) { ++pool_.mark_; }
+LandmarkCollector::LandmarkCollector(LandmarkPool& pool) : pool_(pool)
+{
+  ++pool_.mark_;
+}
 
 bool LandmarkCollector::isDue(const LandmarkPool& pool)
 {
@@ -167,7 +170,10 @@ bool LandmarkCollector::isDue(const LandmarkPool& pool)
   return taken > pool.live_ + kSmallestHarvest;
 }
 
-void LandmarkCollector::mark(const LandmarkMap& map) { mark(map.root_, map.depth_, 0); }
+void LandmarkCollector::mark(const LandmarkMap& map)
+{
+  mark(map.root_, map.depth_, 0);
+}
 
 void LandmarkCollector::mark(Node* node, int depth, std::uint32_t key)
 {

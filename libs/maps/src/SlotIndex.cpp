@@ -22,7 +22,10 @@ void eraseValue(std::vector<std::uint32_t>& list, std::uint32_t value)
   list.pop_back();
 }
 
-double cellCount(const Box& c) { return (c.xMax - c.xMin + 1) * (c.yMax - c.yMin + 1); }
+double cellCount(const Box& c)
+{
+  return (c.xMax - c.xMin + 1) * (c.yMax - c.yMin + 1);
+}
 }  // namespace
 
 Box SlotIndex::cellsOf(const Box& box) const
@@ -34,8 +37,10 @@ Box SlotIndex::cellsOf(const Box& box) const
 template <class F>
 void SlotIndex::forCells(const Box& cells, F&& f) const
 {
-  for (auto ix = static_cast<std::int64_t>(cells.xMin); ix <= static_cast<std::int64_t>(cells.xMax); ++ix)
-    for (auto iy = static_cast<std::int64_t>(cells.yMin); iy <= static_cast<std::int64_t>(cells.yMax); ++iy)
+  for (auto ix = static_cast<std::int64_t>(cells.xMin); ix <= static_cast<std::int64_t>(cells.xMax);
+       ++ix)
+    for (auto iy = static_cast<std::int64_t>(cells.yMin);
+         iy <= static_cast<std::int64_t>(cells.yMax); ++iy)
       f(cellKey(ix, iy));
 }
 
@@ -103,17 +108,21 @@ void SlotIndex::remove(std::uint32_t slot)
 void SlotIndex::query(const Box& box, double sigmas, std::vector<std::uint32_t>& out) const
 {
   out.clear();
-  const auto consider = [&](std::uint32_t slot) {
+  const auto consider = [&](std::uint32_t slot)
+  {
     const Slot& s = slots_[slot];
-    if (s.extent.means.overlaps(box.grown(sigmas * std::sqrt(s.extent.largestVar)))) out.push_back(slot);
+    if (s.extent.means.overlaps(box.grown(sigmas * std::sqrt(s.extent.largestVar))))
+      out.push_back(slot);
   };
   const Box cells = cellsOf(box.grown(sigmas * largestStd_));
   if (cellCount(cells) <= std::max<double>(kMostCells, static_cast<double>(slots_.size())))
   {
-    forCells(cells, [&](std::uint64_t key) {
-      if (const auto it = grid_.find(key); it != grid_.end())
-        for (const std::uint32_t slot : it->second) consider(slot);
-    });
+    forCells(cells,
+             [&](std::uint64_t key)
+             {
+               if (const auto it = grid_.find(key); it != grid_.end())
+                 for (const std::uint32_t slot : it->second) consider(slot);
+             });
     for (const std::uint32_t slot : large_) consider(slot);
   }
   else

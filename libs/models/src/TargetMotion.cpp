@@ -43,7 +43,8 @@ DifferentialDriveTarget::State DifferentialDriveTarget::start(const Start& start
   const auto [course, courseVar] = headingOf(v, vVar * Matrix2::Identity());
   s.headed = start.value[Start::kTheta] || moving;
   const double phi = start.get(Start::kTheta, course);
-  const double phiVar = start.value[Start::kTheta] ? std::pow(start.getStd(Start::kTheta), 2) : courseVar;
+  const double phiVar =
+      start.value[Start::kTheta] ? std::pow(start.getStd(Start::kTheta), 2) : courseVar;
   s.x << start.get(Start::kX), start.get(Start::kY), math::wrapToPi(phi),
       moving ? v.norm() : params_.speed, params_.turnRate;
   s.P.diagonal() << std::pow(start.getStd(Start::kX), 2), std::pow(start.getStd(Start::kY), 2),
@@ -90,7 +91,8 @@ void DifferentialDriveTarget::predict(State& s, double dt) const
   F(1, 4) = v * dt * dt * c;
   F(2, 4) = dt;
   const Eigen::Matrix<double, 3, 2> G = F.topRightCorner<3, 2>();
-  const Vector2 q(params_.speedNoise * params_.speedNoise, params_.turnRateNoise * params_.turnRateNoise);
+  const Vector2 q(params_.speedNoise * params_.speedNoise,
+                  params_.turnRateNoise * params_.turnRateNoise);
   s.P = (F * s.P * F.transpose()).eval();
   s.P.topLeftCorner<3, 3>() += G * q.asDiagonal() * G.transpose();
   s.P(3, 3) += params_.speedWalk * params_.speedWalk * dt;
@@ -104,7 +106,8 @@ void DifferentialDriveTarget::afterCorrection(State& s, const Gaussian<Point2D>*
   if (s.headed || !seenAt || s.sinceAnchor <= 0) return;
   const Vector2 d(seenAt->mean.x - s.anchor.x, seenAt->mean.y - s.anchor.y);
   const Matrix2 cov = s.anchorCov + seenAt->cov;
-  constexpr double kClearMove = 9.0;  // three deviations: the direction is good to a third of a radian
+  constexpr double kClearMove =
+      9.0;  // three deviations: the direction is good to a third of a radian
   if (d.squaredNorm() < kClearMove * cov.trace()) return;
   const double dt = s.sinceAnchor, distance = d.norm();
   const auto [course, courseVar] = headingOf(d / dt, cov / (dt * dt));
@@ -164,9 +167,8 @@ DampedVelocityTarget::State DampedVelocityTarget::start(const Start& start) cons
 {
   State s;
   const double v2 = params_.velocityStd * params_.velocityStd;
-  const auto velocityVar = [&](Start::Field f) {
-    return start.value[f] ? std::pow(start.getStd(f), 2) : v2;
-  };
+  const auto velocityVar = [&](Start::Field f)
+  { return start.value[f] ? std::pow(start.getStd(f), 2) : v2; };
   s.x << start.get(Start::kX), start.get(Start::kY), start.get(Start::kVx), start.get(Start::kVy);
   s.P.diagonal() << std::pow(start.getStd(Start::kX), 2), std::pow(start.getStd(Start::kY), 2),
       velocityVar(Start::kVx), velocityVar(Start::kVy);
@@ -186,7 +188,8 @@ void DampedVelocityTarget::predict(State& s, double dt) const
 {
   // Integrated Ornstein-Uhlenbeck process: Bar-Shalom, Li, Kirubarajan 2001, section 6.2 (Singer),
   // with the velocity in the acceleration's place.
-  const double T = params_.velocityTime, e = std::exp(-dt / T), v2 = params_.velocityStd * params_.velocityStd;
+  const double T = params_.velocityTime, e = std::exp(-dt / T),
+               v2 = params_.velocityStd * params_.velocityStd;
   const double g = T * (1 - e);
   Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
   F(0, 2) = F(1, 3) = g;

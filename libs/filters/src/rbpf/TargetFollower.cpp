@@ -32,12 +32,14 @@ class FollowerOf : public TargetFollower
     BlobRays rays{&step.blobs->blobs, {}};
     for (const core::Blob& b : step.blobs->blobs) rays.rays.push_back(settings_.ray(b));
     const Eye eye(pose);
-    matchBlobs(eye, rays, tracks_.list(), targets_, settings_.gates, nullptr, candidates_, matches_);
+    matchBlobs(eye, rays, tracks_.list(), targets_, settings_.gates, nullptr, candidates_,
+               matches_);
     for (std::size_t k = 0; k < matches_.size(); ++k) settle(step, k, eye, rays.rays[k]);
     dropLost(step.time);
   }
 
-  [[nodiscard]] std::vector<core::TargetEstimate> estimates(const Gaussian<Pose2D>& pose) const override
+  [[nodiscard]] std::vector<core::TargetEstimate> estimates(
+      const Gaussian<Pose2D>& pose) const override
   {
     std::vector<core::TargetEstimate> out;
     for (std::size_t t = 0; t < targets_.size(); ++t)
@@ -60,7 +62,8 @@ class FollowerOf : public TargetFollower
   void settle(const core::Step& step, std::size_t k, const Eye& eye, const Ray& ray)
   {
     const core::Blob& blob = step.blobs->blobs[k];
-    core::Pairing pairing{true, static_cast<int>(k), core::Pairing::Outcome::kRejected, core::kNoId};
+    core::Pairing pairing{true, static_cast<int>(k), core::Pairing::Outcome::kRejected,
+                          core::kNoId};
     if (matches_[k] >= 0)
     {
       const auto t = static_cast<std::size_t>(matches_[k]);
@@ -101,12 +104,14 @@ class FollowerOf : public TargetFollower
 };
 }  // namespace
 
-std::unique_ptr<TargetFollower> TargetFollower::make(core::Params& params, const core::Starts& starts)
+std::unique_ptr<TargetFollower> TargetFollower::make(core::Params& params,
+                                                     const core::Starts& starts)
 {
   const TargetSettings settings = TargetSettings::from(params);
   return std::visit(
       [&](const auto& motion) -> std::unique_ptr<TargetFollower> {
-        return std::make_unique<FollowerOf<std::decay_t<decltype(motion)>>>(settings, motion, starts);
+        return std::make_unique<FollowerOf<std::decay_t<decltype(motion)>>>(settings, motion,
+                                                                            starts);
       },
       models::targetMotionFrom(params));
 }

@@ -65,12 +65,14 @@ void matchBlobs(const Eye& eye, const BlobRays& scan, const std::vector<Track>& 
     for (std::size_t t = 0; t < tracks.size(); ++t)
     {
       Innovation o;
-      if (!Tracks::fits(tracks[t], blob) || !innovateTarget(eye, ray, targets[t], o, poseCov)) continue;
+      if (!Tracks::fits(tracks[t], blob) || !innovateTarget(eye, ray, targets[t], o, poseCov))
+        continue;
       const bool identified = blob.id != core::kNoId;
       const double inner = ray.hasRange ? gates.inner : gates.inner1;
       const double outer = ray.hasRange ? gates.outer : gates.outer1;
       const bool inGate = o.d2 <= (identified ? outer : inner);
-      // An identity leaves no other target to be: out of the gate it is an outlier, never a new one.
+      // An identity leaves no other target to be: out of the gate it is an outlier, never a new
+      // one.
       if (inGate || identified || o.d2 <= outer)
         candidates.push_back({o.d2 + std::log(o.det), static_cast<std::int32_t>(k),
                               static_cast<std::int32_t>(t), inGate});

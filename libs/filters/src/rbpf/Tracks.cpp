@@ -44,7 +44,8 @@ void Tracks::hit(std::size_t index, const core::Blob& blob, double time)
   track.rejections = 0;
   if (track.label.empty()) track.label = blob.label;
   ++track.hits;
-  if (!track.confirmed && (track.identified || track.hits >= rules_.confirmSightings)) confirm(track);
+  if (!track.confirmed && (track.identified || track.hits >= rules_.confirmSightings))
+    confirm(track);
 }
 
 void Tracks::confirm(Track& track)

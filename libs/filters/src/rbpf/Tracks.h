@@ -11,10 +11,10 @@ namespace slamot::filters::rbpf
 /// When targets start, are believed, and are lost.
 struct TrackRules
 {
-  int confirmSightings;   ///< sightings until a target without identity is believed
-  double tentativeTime;   ///< [s] without a sighting after which one not yet believed is dropped
-  double lostTime;        ///< [s] without a sighting after which a target is lost
-  double lostStd;         ///< [m] deviation of its place beyond which a target is lost
+  int confirmSightings;  ///< sightings until a target without identity is believed
+  double tentativeTime;  ///< [s] without a sighting after which one not yet believed is dropped
+  double lostTime;       ///< [s] without a sighting after which a target is lost
+  double lostStd;        ///< [m] deviation of its place beyond which a target is lost
   static TrackRules from(core::Params& p);
 };
 
@@ -48,7 +48,10 @@ class Tracks
   void reject(const core::Blob& blob);
   /// Whether a track whose place has this deviation [m] is lost by now.
   [[nodiscard]] bool isLost(std::size_t index, double time, double std) const;
-  void erase(std::size_t index) { tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(index)); }
+  void erase(std::size_t index)
+  {
+    tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(index));
+  }
 
  private:
   void confirm(Track& track);

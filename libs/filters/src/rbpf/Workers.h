@@ -31,13 +31,16 @@ class Workers
       return;
     }
     constexpr std::size_t kGrain = 16;
-    arena_.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, kGrain),
-                        [&](const tbb::blocked_range<std::size_t>& r) {
-                          const int lane = tbb::this_task_arena::current_thread_index();
-                          for (std::size_t i = r.begin(); i < r.end(); ++i) f(i, lane);
-                        });
-    });
+    arena_.execute(
+        [&]
+        {
+          tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, kGrain),
+                            [&](const tbb::blocked_range<std::size_t>& r)
+                            {
+                              const int lane = tbb::this_task_arena::current_thread_index();
+                              for (std::size_t i = r.begin(); i < r.end(); ++i) f(i, lane);
+                            });
+        });
   }
 
  private:

@@ -49,7 +49,10 @@ class Independent : public core::Filter
   ~Independent() override;
   core::Update process(const core::Step& step) override;
   [[nodiscard]] core::Estimate estimate() const override { return estimate_; }
-  [[nodiscard]] std::vector<core::WeightedPose> particles() const override { return slam_->particles(); }
+  [[nodiscard]] std::vector<core::WeightedPose> particles() const override
+  {
+    return slam_->particles();
+  }
 
  private:
   std::unique_ptr<core::Filter> slam_;

@@ -6,8 +6,8 @@ namespace slamot::filters
 {
 /// Rao-Blackwellised particle filter for SLAM and object tracking: each particle holds a pose, an
 /// EKF for each landmark and one for each target.  Wu and Sun 2013, algorithm 1 as corrected; with
-/// `proposal = informed`, the pose is drawn from the Gaussian that takes in the scan's landmarks and
-/// targets (Montemerlo et al. 2003, FastSLAM 2.0).  Built on MRPT's particle filter classes.
+/// `proposal = informed`, the pose is drawn from the Gaussian that takes in the scan's landmarks
+/// and targets (Montemerlo et al. 2003, FastSLAM 2.0).  Built on MRPT's particle filter classes.
 class RbpfSlamot : public core::Filter
 {
  public:

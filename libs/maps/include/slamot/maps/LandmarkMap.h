@@ -14,10 +14,10 @@ namespace slamot::maps
 /// One landmark of one particle: a Gaussian over its place, in map axes.
 struct Landmark
 {
-  double x = 0, y = 0;                 ///< [m]
-  double cxx = 0, cxy = 0, cyy = 0;    ///< [m²]
+  double x = 0, y = 0;               ///< [m]
+  double cxx = 0, cxy = 0, cyy = 0;  ///< [m²]
   std::int32_t sightings = 0;
-  float existence = 0;                 ///< log odds that it exists
+  float existence = 0;  ///< log odds that it exists
 
   [[nodiscard]] Point2D point() const { return {x, y}; }
   [[nodiscard]] Matrix2 cov() const

@@ -62,8 +62,8 @@ class SlotIndex
   /// Sets where a reserved slot's landmark is.
   void place(std::uint32_t slot, const SlotExtent& extent);
 
-  /// Slots whose landmark may have a mean inside the box, or one within `sigmas` of its own standard
-  /// deviations from it; in rising order.
+  /// Slots whose landmark may have a mean inside the box, or one within `sigmas` of its own
+  /// standard deviations from it; in rising order.
   void query(const Box& box, double sigmas, std::vector<std::uint32_t>& out) const;
 
   /// Releases the placed slots for which occupied[slot] is false.

@@ -4,7 +4,6 @@
 #include <slamot/core/Start.h>
 
 #include <Eigen/LU>
-#include <Eigen/LU>
 #include <variant>
 
 namespace slamot::models
@@ -32,32 +31,32 @@ struct TargetState
   }
 };
 
-/// Differential drive: state (x, y, phi, v, omega); a step turns first, then moves.  v and omega are
-/// constant but for a white noise drawn anew each step and a slow walk.  With known v and omega this
-/// is the target model of Wu and Sun 2013, eq. (13)-(17) as corrected.
-/// A target that starts without a heading waits, its place alone followed, until it has moved far
-/// enough from its first sighting to show one.
+/// Differential drive: state (x, y, phi, v, omega); a step turns first, then moves.  v and omega
+/// are constant but for a white noise drawn anew each step and a slow walk.  With known v and omega
+/// this is the target model of Wu and Sun 2013, eq. (13)-(17) as corrected. A target that starts
+/// without a heading waits, its place alone followed, until it has moved far enough from its first
+/// sighting to show one.
 class DifferentialDriveTarget
 {
  public:
   struct Params
   {
-    double speed;             ///< [m/s] at the start
-    double speedStd;          ///< [m/s] of the start's speed; 0: known
-    double turnRate;          ///< [rad/s] at the start
-    double turnRateStd;       ///< [rad/s]; 0: known
-    double speedNoise;        ///< [m/s] drawn anew each step
-    double turnRateNoise;     ///< [rad/s] drawn anew each step
-    double speedWalk;         ///< [m/s per square root of a second]
-    double turnRateWalk;      ///< [rad/s per square root of a second]
+    double speed;          ///< [m/s] at the start
+    double speedStd;       ///< [m/s] of the start's speed; 0: known
+    double turnRate;       ///< [rad/s] at the start
+    double turnRateStd;    ///< [rad/s]; 0: known
+    double speedNoise;     ///< [m/s] drawn anew each step
+    double turnRateNoise;  ///< [rad/s] drawn anew each step
+    double speedWalk;      ///< [m/s per square root of a second]
+    double turnRateWalk;   ///< [rad/s per square root of a second]
     static Params from(core::Params& p);
   };
   struct State : TargetState<5>
   {
-    bool headed = true;           // whether phi means something
-    Point2D anchor;               // where a target without heading was first seen
+    bool headed = true;  // whether phi means something
+    Point2D anchor;      // where a target without heading was first seen
     Matrix2 anchorCov = Matrix2::Zero();
-    double sinceAnchor = 0;       // [s]
+    double sinceAnchor = 0;  // [s]
   };
 
   explicit DifferentialDriveTarget(const Params& params) : params_(params) {}
@@ -71,7 +70,8 @@ class DifferentialDriveTarget
 
   [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
   [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
-  /// Adds the uncertainty of a small rigid motion of the target, given by the covariance of its pose.
+  /// Adds the uncertainty of a small rigid motion of the target, given by the covariance of its
+  /// pose.
   static void widen(State& s, const Matrix3& poseCov);
 
  private:
