@@ -5,8 +5,9 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 die() { printf 'mrclam.sh: error: %s\n' "$*" >&2; exit 1; }
+[ $# -gt 0 ] || { echo "mrclam.sh: skipped: it needs the folder of MRCLAM dataset 6 as its argument"; exit 0; }
 slamot=${SLAMOT_BUILD:-build}/apps/slamot/slamot out=slamot-out/mrclam
-[ -d "${1:-}" ] || die "'${1:-}' is no folder: give that of MRCLAM dataset 6"
+[ -d "$1" ] || die "'$1' is no folder: give that of MRCLAM dataset 6"
 [ -x "$slamot" ] || die "$slamot is missing: run ./dev build"
 wheels=(--odometry-delay 0.22 --std-heading 0.3 --std-heading-turning 0.12)  # see doc/importing.md
 mkdir -p $out
