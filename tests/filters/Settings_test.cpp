@@ -61,6 +61,13 @@ TEST(RbpfSettings, RefuseWhatIsOutOfRange)
   EXPECT_NE(errorOf(without("particles") + "particles = 0\n").find("from 1 to"), std::string::npos);
 }
 
+TEST(RbpfSettings, FollowWithBothDeviationsOrNeither)
+{
+  for (const char* line : {"follow_range_std_m = 0.1\n", "follow_bearing_std_deg = 1\n"})
+    EXPECT_NE(errorOf(kGood + line).find("go together"), std::string::npos) << line;
+  EXPECT_EQ(errorOf(kGood + "follow_range_std_m = 0.1\nfollow_bearing_std_deg = 1\n"), "");
+}
+
 TEST(RbpfSettings, SuggestTheNearestKey)
 {
   EXPECT_NE(errorOf(kGood + "gate_probabilty = 0.9\n").find("did you mean gate_probability?"),

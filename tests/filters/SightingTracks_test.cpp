@@ -206,6 +206,17 @@ TEST_F(TrackMatching, AClearSightingPlacesThePoseForTheOthers)
   EXPECT_GT(together, 190);
 }
 
+TEST_F(TrackMatching, TwoTracksOfOneLandmarkAreToldApartOnceBothAreSeen)
+{
+  mapPosts({{4, 0}});
+  for (const double time : {10.0, 10.1}) see({{4, -0.05}, {4, 0.05}}, time), match();
+  followed.assign(2, static_cast<std::int32_t>(slots[0]));  // as if begun one without the other
+  see({{4, -0.05}, {4, 0.05}}, 10.2);
+  match();
+  EXPECT_EQ(postOf(0), 0);
+  EXPECT_NE(matches[1], matches[0]);
+}
+
 TEST_F(TrackMatching, NeverTakesTwoSightingsForOneLandmark)
 {
   mapPosts({{4, 0}});

@@ -92,6 +92,16 @@ class LandmarkScan
     return innovate(eye, rays_[j], m.x, m.y, m.cxx, m.cxy, m.cyy, o,
                     slot < noise_.size() ? noise_[slot] : 1.0);
   }
+  /// Matches what continues a track; `open` becomes the sightings that have still to be decided.
+  PoseUpdate continueTracks(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
+                            std::vector<std::int32_t>& followed, std::vector<std::size_t>& open,
+                            std::vector<std::int32_t>& matches) const;
+  /// The open sighting that leaves least doubt, so that it helps to tell the others; its choices
+  /// are then in `scratch.chosen`.
+  std::vector<std::size_t>::iterator clearest(const maps::LandmarkMap& map, const Eye& eye,
+                                              const PoseUpdate::Result& pose,
+                                              const std::vector<std::int32_t>& matches,
+                                              TrackScratch& scratch) const;
   void listChoices(const maps::LandmarkMap& map, const Eye& eye, const PoseUpdate::Result& pose,
                    std::size_t j, const std::vector<std::int32_t>& matches,
                    std::vector<Choice>& choices) const;

@@ -37,6 +37,9 @@ Settings Settings::from(core::Params& p)
   if (!s.knownIds)
     s.tracking = {p.nonNegative("follow_range_std_m", 0.0),
                   p.nonNegative("follow_bearing_std_deg", 0.0)};
+  if ((s.tracking.rangeStd > 0) != (s.tracking.bearingStd > 0))
+    p.fail("follow_bearing_std_deg", "and follow_range_std_m go together",
+           "set both above 0, or neither");
   s.confirmSightings = p.integer("confirm_sightings", 1, 1000000, s.knownIds ? 1 : 3);
   s.detection = p.inRange("detection_probability", 0, 0.999, 0.0);
   s.resampling.BETA = p.inRange("resample_below_ess", 0, 1, 0.5);

@@ -55,22 +55,23 @@ void LandmarkScan::listChoices(const maps::LandmarkMap& map, const Eye& eye,
   }
 }
 
-double LandmarkScan::matchTracks(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
-                                 std::vector<std::int32_t>& followed, math::RandomStream& random,
-                                 TrackScratch& scratch, std::vector<std::int32_t>& matches) const
+PoseUpdate LandmarkScan::continueTracks(const maps::LandmarkMap& map, const Eye& eye,
+                                        const Matrix3& root, std::vector<std::int32_t>& followed,
+                                        std::vector<std::size_t>& open,
+                                        std::vector<std::int32_t>& matches) const
 {
-  followed.resize(tracks_.capacity(), kNew);
-  matches.assign(rays_.size(), kRejected);
   const Matrix3 poseCov = root * root.transpose();
   PoseUpdate update;
-  auto& open = scratch.open;
   open.clear();
   for (std::size_t j = 0; j < rays_.size(); ++j)
   {
     std::int32_t& slot = followed[tracks_.place(j)];
     if (tracks_.hits(j) == 1) slot = kNew;
     Innovation o;
-    const maps::Landmark* m = slot >= 0 ? map.find(static_cast<std::uint32_t>(slot)) : nullptr;
+    // Two tracks of one landmark, each begun while the other was out of sight: one decides anew.
+    const bool taken = std::find(matches.begin(), matches.end(), slot) != matches.end();
+    const maps::Landmark* m =
+        slot >= 0 && !taken ? map.find(static_cast<std::uint32_t>(slot)) : nullptr;
     if (m && innovateLandmark(eye, j, static_cast<std::uint32_t>(slot), *m, o) &&
         withPose(o, poseCov).d2 <= settings_.gates.outer)
     {
@@ -80,22 +81,40 @@ double LandmarkScan::matchTracks(const maps::LandmarkMap& map, const Eye& eye, c
     else if (tracks_.hits(j) >= kFirstHits)
       open.push_back(j);
   }
-  double logGain = 0;
-  while (!open.empty())
+  return update;
+}
+
+std::vector<std::size_t>::iterator LandmarkScan::clearest(const maps::LandmarkMap& map,
+                                                          const Eye& eye,
+                                                          const PoseUpdate::Result& pose,
+                                                          const std::vector<std::int32_t>& matches,
+                                                          TrackScratch& scratch) const
+{
+  double leastDoubt = std::numeric_limits<double>::infinity();
+  auto out = scratch.open.begin();
+  for (auto it = scratch.open.begin(); it != scratch.open.end(); ++it)
   {
-    const PoseUpdate::Result pose = update.solve(root);
-    // The sighting that leaves least doubt comes first, so that it helps to tell the others.
-    double leastDoubt = std::numeric_limits<double>::infinity();
-    auto next = open.begin();
-    for (auto it = open.begin(); it != open.end(); ++it)
-    {
-      listChoices(map, eye, pose, *it, matches, scratch.choices);
-      const double doubt = logSum(scratch.choices) - mostLikely(scratch.choices);
-      if (!(doubt < leastDoubt)) continue;
-      leastDoubt = doubt;
-      next = it;
-      scratch.chosen.swap(scratch.choices);
-    }
+    listChoices(map, eye, pose, *it, matches, scratch.choices);
+    const double doubt = logSum(scratch.choices) - mostLikely(scratch.choices);
+    if (!(doubt < leastDoubt)) continue;
+    leastDoubt = doubt;
+    out = it;
+    scratch.chosen.swap(scratch.choices);
+  }
+  return out;
+}
+
+double LandmarkScan::matchTracks(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
+                                 std::vector<std::int32_t>& followed, math::RandomStream& random,
+                                 TrackScratch& scratch, std::vector<std::int32_t>& matches) const
+{
+  followed.resize(tracks_.capacity(), kNew);
+  matches.assign(rays_.size(), kRejected);
+  PoseUpdate update = continueTracks(map, eye, root, followed, scratch.open, matches);
+  double logGain = 0;
+  while (!scratch.open.empty())
+  {
+    const auto next = clearest(map, eye, update.solve(root), matches, scratch);
     const std::size_t j = *next;
     const double total = logSum(scratch.chosen);
     const Choice& choice = draw(scratch.chosen, total, random);
@@ -104,7 +123,7 @@ double LandmarkScan::matchTracks(const maps::LandmarkMap& map, const Eye& eye, c
         choice.what >= 0 ? choice.what : static_cast<std::int32_t>(newSlots_[j]);
     logGain += total - choice.logLikelihood;
     if (choice.what >= 0) update.add(choice.innovation);
-    open.erase(next);
+    scratch.open.erase(next);
   }
   return logGain;
 }
