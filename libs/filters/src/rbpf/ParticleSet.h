@@ -46,6 +46,11 @@ class ParticleSet
   [[nodiscard]] Particle<TargetState>& operator[](std::size_t i) { return this->m_particles[i].d; }
   [[nodiscard]] double& logWeight(std::size_t i) { return this->m_particles[i].log_w; }
 
+  // MRPT 2.5.8 reaches the list by a dynamic_cast in each of these, once per particle: 2% of a step
+  // with 1000 particles and 20 sightings, in the part that runs on one thread.
+  [[nodiscard]] double getW(std::size_t i) const override { return this->m_particles.at(i).log_w; }
+  void setW(std::size_t i, double w) override { this->m_particles.at(i).log_w = w; }
+
   void performSubstitution(const std::vector<std::size_t>& indices) override
   {
     Base::performSubstitution(indices);
