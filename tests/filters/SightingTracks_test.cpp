@@ -206,15 +206,21 @@ TEST_F(TrackMatching, AClearSightingPlacesThePoseForTheOthers)
   EXPECT_GT(together, 190);
 }
 
-TEST_F(TrackMatching, TwoTracksOfOneLandmarkAreToldApartOnceBothAreSeen)
+TEST_F(TrackMatching, OfTwoTracksOfOneLandmarkTheBetterKeepsIt)
 {
   mapPosts({{4, 0}});
-  for (const double time : {10.0, 10.1}) see({{4, -0.05}, {4, 0.05}}, time), match();
-  followed.assign(2, static_cast<std::int32_t>(slots[0]));  // as if begun one without the other
-  see({{4, -0.05}, {4, 0.05}}, 10.2);
-  match();
-  EXPECT_EQ(postOf(0), 0);
-  EXPECT_NE(matches[1], matches[0]);
+  const std::vector<Point2D> near{{4, 0.02}, {4, -0.08}};
+  for (const std::size_t better : {0u, 1u})
+  {
+    const std::vector<Point2D> points{near[better], near[1 - better]};
+    const double time = 10.0 * static_cast<double>(better + 1);
+    for (const double later : {0.0, 0.1}) see(points, time + later), match();
+    see(points, time + 0.2);
+    followed.assign(4, static_cast<std::int32_t>(slots[0]));  // as if begun one without the other
+    match();
+    EXPECT_EQ(postOf(better), 0) << better;
+    EXPECT_NE(matches[0], matches[1]) << better;
+  }
 }
 
 TEST_F(TrackMatching, NeverTakesTwoSightingsForOneLandmark)

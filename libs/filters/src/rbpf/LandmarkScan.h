@@ -23,6 +23,8 @@ struct TrackScratch
 {
   std::vector<std::size_t> open;  // sightings whose tracks have no landmark yet
   std::vector<Choice> choices, chosen;
+  std::vector<Candidate> candidates;
+  std::vector<Innovation> innovations;
 };
 
 /// The landmark side of a scan: which slots its sightings may be of, for all particles at once, and
@@ -92,9 +94,9 @@ class LandmarkScan
     return innovate(eye, rays_[j], m.x, m.y, m.cxx, m.cxy, m.cyy, o,
                     slot < noise_.size() ? noise_[slot] : 1.0);
   }
-  /// Matches what continues a track; `open` becomes the sightings that have still to be decided.
+  /// Matches what continues a track; `scratch.open` becomes the sightings still to be decided.
   PoseUpdate continueTracks(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
-                            std::vector<std::int32_t>& followed, std::vector<std::size_t>& open,
+                            std::vector<std::int32_t>& followed, TrackScratch& scratch,
                             std::vector<std::int32_t>& matches) const;
   /// The open sighting that leaves least doubt, so that it helps to tell the others; its choices
   /// are then in `scratch.chosen`.

@@ -57,30 +57,37 @@ void LandmarkScan::listChoices(const maps::LandmarkMap& map, const Eye& eye,
 
 PoseUpdate LandmarkScan::continueTracks(const maps::LandmarkMap& map, const Eye& eye,
                                         const Matrix3& root, std::vector<std::int32_t>& followed,
-                                        std::vector<std::size_t>& open,
+                                        TrackScratch& scratch,
                                         std::vector<std::int32_t>& matches) const
 {
   const Matrix3 poseCov = root * root.transpose();
-  PoseUpdate update;
-  open.clear();
+  scratch.candidates.clear();
+  scratch.innovations.resize(rays_.size());
   for (std::size_t j = 0; j < rays_.size(); ++j)
   {
     std::int32_t& slot = followed[tracks_.place(j)];
     if (tracks_.hits(j) == 1) slot = kNew;
-    Innovation o;
-    // Two tracks of one landmark, each begun while the other was out of sight: one decides anew.
-    const bool taken = std::find(matches.begin(), matches.end(), slot) != matches.end();
-    const maps::Landmark* m =
-        slot >= 0 && !taken ? map.find(static_cast<std::uint32_t>(slot)) : nullptr;
-    if (m && innovateLandmark(eye, j, static_cast<std::uint32_t>(slot), *m, o) &&
-        withPose(o, poseCov).d2 <= settings_.gates.outer)
-    {
-      matches[j] = slot;
-      update.add(o);
-    }
-    else if (tracks_.hits(j) >= kFirstHits)
-      open.push_back(j);
+    Innovation& o = scratch.innovations[j];
+    const maps::Landmark* m = slot >= 0 ? map.find(static_cast<std::uint32_t>(slot)) : nullptr;
+    if (!m || !innovateLandmark(eye, j, static_cast<std::uint32_t>(slot), *m, o)) continue;
+    const Innovation now = withPose(o, poseCov);
+    if (now.d2 <= settings_.gates.outer)
+      scratch.candidates.push_back(
+          {now.d2 + std::log(now.det), static_cast<std::int32_t>(j), slot, true});
   }
+  // Two tracks may be of one landmark, each begun while the other was out of sight: the one that
+  // fits better keeps it.
+  matchGreedily(scratch.candidates, matches);
+  PoseUpdate update;
+  scratch.open.clear();
+  for (std::size_t j = 0; j < rays_.size(); ++j)
+    if (matches[j] >= 0)
+      update.add(scratch.innovations[j]);
+    else
+    {
+      matches[j] = kRejected;
+      if (tracks_.hits(j) >= kFirstHits) scratch.open.push_back(j);
+    }
   return update;
 }
 
@@ -109,8 +116,8 @@ double LandmarkScan::matchTracks(const maps::LandmarkMap& map, const Eye& eye, c
                                  TrackScratch& scratch, std::vector<std::int32_t>& matches) const
 {
   followed.resize(tracks_.capacity(), kNew);
-  matches.assign(rays_.size(), kRejected);
-  PoseUpdate update = continueTracks(map, eye, root, followed, scratch.open, matches);
+  matches.resize(rays_.size());
+  PoseUpdate update = continueTracks(map, eye, root, followed, scratch, matches);
   double logGain = 0;
   while (!scratch.open.empty())
   {
