@@ -30,6 +30,9 @@ class Plugin : public ::testing::TestWithParam<mrpt::RawlogWriter::Format>
  protected:
   void SetUp() override
   {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "MRPT's own program does not load what is built with a sanitizer";
+#endif
     if (std::string(RAWLOG_EDIT).empty())
       GTEST_SKIP() << "rawlog-edit (mrpt-apps) is not installed";
     writeLog(folder_, GetParam(), exampleSteps(), exampleStarts());
