@@ -39,8 +39,8 @@ void expectSameWorld(const std::string& name, const std::vector<std::string>& ch
   mrpt::RawlogSource::Options options;
   // A log of observations holds no covariance.
   options.odometry.fromLog = format == "frames";
-  options.odometry.vStd = s.robot.motion.vStd;
-  options.odometry.omegaStd = s.robot.motion.omegaStd;
+  options.odometry.vStd = s.robots.at(0).motion.vStd;
+  options.odometry.omegaStd = s.robots.at(0).motion.omegaStd;
   mrpt::RawlogSource source(folder.file("a.rawlog"), options);
   sim::World world(s, 5);
   EXPECT_EQ(expectNear(world, source), s.steps);

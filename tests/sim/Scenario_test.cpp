@@ -30,8 +30,8 @@ TEST(Scenario, Experiment1IsThatOfThePage)
   EXPECT_EQ(s.scanEvery, 8);
   EXPECT_EQ(s.dt, 0.025);
   EXPECT_EQ(s.landmarks, 20);
-  EXPECT_EQ(s.robot.motion.vStd, 0.4);
-  EXPECT_EQ(s.robot.motion.omegaStd, 0.0872);
+  EXPECT_EQ(s.robots.at(0).motion.vStd, 0.4);
+  EXPECT_EQ(s.robots.at(0).motion.omegaStd, 0.0872);
   ASSERT_EQ(s.targets.count(1), 1u);
   EXPECT_EQ(s.targets.at(1).motion.vStd, 0.8);
   EXPECT_EQ(s.targets.at(1).motion.omegaStd, 0.6);
@@ -82,6 +82,47 @@ TEST(Scenario, WhatIsWrongIsSaidWithItsKey)
   expect({"landmark_sensor.range_std_m=0"}, "[landmark_sensor] range_std_m: 0 is out of range");
 }
 
+TEST(Scenario, WhatIsWrongWithATeamIsSaidWithItsSection)
+{
+  const auto expect = [](const std::vector<std::string>& changes, const std::string& line)
+  {
+    std::string said;
+    try
+    {
+      (void)test::team(changes);
+    }
+    catch (const core::Error& e)
+    {
+      EXPECT_EQ(e.status(), core::ExitStatus::kConfig);
+      said = e.what();
+    }
+    EXPECT_NE(said.find(line), std::string::npos) << changes[0] << " -> " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  };
+  expect({"robot.speed_mps=1"},
+         "[robot]: is there beside [robot_0]; name all robots robot_0, robot_1, ...");
+  expect({"robot_3.speed_mps=1"},
+         "[robot_3]: is there without [robot_2]; number robots from 0 without a gap");
+  expect({"robot_x.speed_mps=1"}, "[robot_x]: unknown section");
+  expect({"robot_1.following=false"},
+         "[robot_1] follow_side_m: is given, but the robot follows nothing; set following = true");
+  expect({"robot_1.follow_target=1"}, "[robot_1] follow_target: there is no target 1");
+  expect({"robot_1.motion=accelerated", "robot_1.jerk_noise_mps3_per_sqrt_hz=1",
+          "robot_1.speed_band_mps=1", "robot_1.direction_cone_deg=1", "robot_1.v_std_mps=0",
+          "robot_1.omega_std_radps=0"},
+         "[robot_1] motion: accelerated is for targets");
+  expect({"robot_1.start_std_acceleration_mps2=1"},
+         "[robot_1] start_std_acceleration_mps2: is for motion = accelerated; remove it");
+  expect({"target_0.speed_band_mps=2.5"},
+         "[target_0] speed_band_mps: lets it stand still or turn back; set it below speed_mps");
+  expect({"target_0.direction_cone_deg=90"}, "[target_0] direction_cone_deg: 90 is out of range");
+  expect({"target_0.v_std_mps=0.1"}, "[target_0] v_std_mps: is not for motion = accelerated");
+  expect({"target_0.jerk_noise_mps3_per_sqrt_hz=9"},
+         "[target_0] jerk_noise_mps3_per_sqrt_hz: is too much for its speed's band and its cone");
+  expect({"mate_sensor.range=9"}, "[mate_sensor] range: unknown key");
+  expect({"mate_sensor.range_std_m=0"}, "[mate_sensor] range_std_m: 0 is out of range");
+}
+
 TEST(Scenario, TargetAndTarget1AreOneTooMany)
 {
   const std::string said = complaint({"target_1.motion=circle", "target_1.speed_mps=1",
@@ -101,7 +142,7 @@ TEST(Scenario, EveryShippedOneIsWellFormed)
     EXPECT_TRUE(world.next().has_value());
     ++seen;
   }
-  EXPECT_GE(seen, 1);
+  EXPECT_GE(seen, 5);
 }
 }  // namespace
 }  // namespace slamot::sim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <slamot/core/Error.h>
 #include <slamot/models/RangeBearing.h>
 #include <slamot/sim/World.h>
 
@@ -18,6 +19,21 @@ inline core::Config experiment1()
 inline sim::Scenario scenario(const std::vector<std::string>& changes = {})
 {
   core::Config config = experiment1();
+  for (const std::string& change : changes) config.set(change);
+  const sim::Scenario out = sim::Scenario::from(config);
+  config.requireAllRead();
+  return out;
+}
+
+inline core::Config team300()
+{
+  return core::Config::load(SLAMOT_CONFIG_INI "/sim.team-300m.ini");
+}
+
+/// The team in the world of 300 m, with some keys changed.
+inline sim::Scenario team(const std::vector<std::string>& changes = {})
+{
+  core::Config config = team300();
   for (const std::string& change : changes) config.set(change);
   const sim::Scenario out = sim::Scenario::from(config);
   config.requireAllRead();

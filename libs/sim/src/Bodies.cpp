@@ -4,18 +4,21 @@
 
 namespace slamot::sim
 {
-Bodies::Bodies(const Scenario& scenario, std::uint64_t seed)
-    : scenario_(scenario),
-      seed_(seed),
-      robot_{{},
-             {scenario.robot.motion, scenario.area, stream(seed, Purpose::kManoeuvre, 0, kRobot)}}
+Bodies::Bodies(const Scenario& scenario, std::uint64_t seed) : scenario_(scenario), seed_(seed)
 {
   const auto poses = placeTargets(scenario, seed);
-  robot_.pose = placeRobot(scenario, poses, seed);
+  for (int i = 0; i < static_cast<int>(scenario.robots.size()); ++i)
+    robots_.push_back(makeBody(scenario.robots[std::size_t(i)].motion,
+                               placeRobot(scenario, i, poses, seed), robotKey(i)));
   for (const auto& [id, target] : scenario.targets)
-    targets_.emplace(id, Body{poses.at(id),
-                              {target.motion, scenario.area,
-                               stream(seed, Purpose::kManoeuvre, 0, targetKey(id))}});
+    targets_.emplace(id, makeBody(target.motion, poses.at(id), targetKey(id)));
+}
+
+Bodies::Body Bodies::makeBody(const Motion& motion, const Pose2D& pose, std::uint64_t key) const
+{
+  Body out{pose, {motion, scenario_.area, stream(seed_, Purpose::kManoeuvre, 0, key)}, {}};
+  if (motion.kind == Motion::Kind::kAccelerated) out.point.emplace(motion, pose);
+  return out;
 }
 
 std::map<int, Pose2D> Bodies::presentTargets() const
@@ -26,13 +29,21 @@ std::map<int, Pose2D> Bodies::presentTargets() const
   return out;
 }
 
-core::Starts Bodies::starts() const
+std::map<int, Point2D> Bodies::matesOf(int robot) const
+{
+  std::map<int, Point2D> out;
+  for (int i = 0; i < static_cast<int>(robots_.size()); ++i)
+    if (i != robot) out[i] = {this->robot(i).x, this->robot(i).y};
+  return out;
+}
+
+core::Starts Bodies::starts(int robot) const
 {
   const auto draws = [&](std::uint64_t key)
-  { return stream(seed_, Purpose::kStartKnowledge, 0, key); };
+  { return stream(seed_, Purpose::kStartKnowledge, 0, robotKey(robot) + key); };
   core::Starts out;
-  const RobotSetup& r = scenario_.robot;
-  if (r.start.known) out.robot = knownStart(r.start, r.motion, robot_.pose, draws(kRobot));
+  const RobotSetup& r = scenario_.robots[std::size_t(robot)];
+  if (r.start.known) out.robot = knownStart(r.start, r.motion, this->robot(robot), draws(0));
   for (const auto& [id, pose] : presentTargets())
   {
     const TargetSetup& target = scenario_.targets.at(id);
@@ -42,33 +53,47 @@ core::Starts Bodies::starts() const
   return out;
 }
 
-Command Bodies::robotCommand()
+Command Bodies::robotCommand(std::size_t robot)
 {
-  const RobotSetup& r = scenario_.robot;
-  if (!r.following) return robot_.driver.next(robot_.pose, elapsed());
+  const RobotSetup& r = scenario_.robots[robot];
+  Body& body = robots_[robot];
+  if (!r.following) return body.driver.next(body.pose, elapsed());
   const TargetSetup& target = scenario_.targets.at(r.followed);
   if (!target.isPresent(elapsed())) return {};
-  return follow(r, robot_.pose, targets_.at(r.followed).pose, target.motion.speed);
+  return follow(r, body.pose, targets_.at(r.followed).pose, target.motion.speed);
 }
 
-Pose2D Bodies::moved(const Pose2D& pose, const Command& c, const Motion& m, std::uint64_t key) const
+void Bodies::drive(Body& body, const Command& c, const Motion& m, std::uint64_t key) const
 {
   auto random = stream(seed_, Purpose::kMotion, static_cast<std::uint64_t>(step_), key);
   const double v = c.v + m.vStd * random.normal();
   const double omega = c.omega + m.omegaStd * random.normal();
-  return math::compose(pose, math::turnThenMove(v, omega, scenario_.dt, 0, 0).mean);
+  body.pose = math::compose(body.pose, math::turnThenMove(v, omega, scenario_.dt, 0, 0).mean);
 }
 
-Gaussian<Pose2D> Bodies::move()
+void Bodies::moveTarget(Body& body, const Motion& m, std::uint64_t key) const
 {
-  // Follows where the target is now, not where it will be after this step.
-  const Command command = robotCommand();
-  const Motion& m = scenario_.robot.motion;
-  robot_.pose = moved(robot_.pose, command, m, kRobot);
+  if (!body.point) return drive(body, body.driver.next(body.pose, elapsed()), m, key);
+  auto random = stream(seed_, Purpose::kMotion, static_cast<std::uint64_t>(step_), key);
+  body.point->move(scenario_.dt, random);
+  body.pose = body.point->pose();
+}
+
+std::vector<Gaussian<Pose2D>> Bodies::move()
+{
+  std::vector<Gaussian<Pose2D>> odometry;
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+  {
+    // Follows where the target is now, not where it will be after this step.
+    const Command command = robotCommand(i);
+    const Motion& m = scenario_.robots[i].motion;
+    drive(robots_[i], command, m, robotKey(static_cast<int>(i)));
+    odometry.push_back(
+        math::turnThenMove(command.v, command.omega, scenario_.dt, m.vStd, m.omegaStd));
+  }
   for (auto& [id, body] : targets_)
-    body.pose = moved(body.pose, body.driver.next(body.pose, elapsed()),
-                      scenario_.targets.at(id).motion, targetKey(id));
+    moveTarget(body, scenario_.targets.at(id).motion, targetKey(id));
   ++step_;
-  return math::turnThenMove(command.v, command.omega, scenario_.dt, m.vStd, m.omegaStd);
+  return odometry;
 }
 }  // namespace slamot::sim

@@ -35,6 +35,7 @@ Command Driver::next(const Pose2D& pose, double elapsed)
     case Motion::Kind::kManoeuvre:
       return manoeuvre(pose, elapsed);
     case Motion::Kind::kCommand:
+    case Motion::Kind::kAccelerated:  // is no body that is driven
       break;
   }
   return {motion_.speed, motion_.turnRate};
@@ -73,7 +74,9 @@ Command Driver::manoeuvre(const Pose2D& pose, double elapsed)
 Command follow(const RobotSetup& setup, const Pose2D& robot, const Pose2D& target,
                double targetSpeed)
 {
-  const auto z = models::RangeBearing::predict(robot, {target.x, target.y});
+  const double left = setup.followSide;
+  const Point2D aim{target.x - left * std::sin(target.phi), target.y + left * std::cos(target.phi)};
+  const auto z = models::RangeBearing::predict(robot, aim);
   return {std::clamp(setup.followGain * (z[0] - setup.followDistance), 0.0,
                      setup.followSpeedRatio * targetSpeed),
           steer(setup.motion, z[1])};

@@ -32,7 +32,8 @@ class Driver
   double turn_ = 1, nextSwitch_ = 0;
 };
 
-/// Drives a robot after a target: the nearer the slower, stopping at the distance to keep.
+/// Drives a robot after a point beside a target: the nearer the slower, stopping at the distance to
+/// keep.  The point lies setup.followSide to the left of the target, across the target's heading.
 /// \param targetSpeed the speed that the target is told to drive at [m/s].
 [[nodiscard]] Command follow(const RobotSetup& setup, const Pose2D& robot, const Pose2D& target,
                              double targetSpeed);

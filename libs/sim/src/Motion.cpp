@@ -6,11 +6,12 @@ namespace
 {
 Motion::Kind readKind(core::Params& p)
 {
-  const std::string kind =
-      p.choice("motion", {"circle", "waypoints", "straight", "manoeuvre", "command"});
+  const std::string kind = p.choice(
+      "motion", {"circle", "waypoints", "straight", "manoeuvre", "command", "accelerated"});
   if (kind == "circle") return Motion::Kind::kCircle;
   if (kind == "waypoints") return Motion::Kind::kWaypoints;
   if (kind == "straight") return Motion::Kind::kStraight;
+  if (kind == "accelerated") return Motion::Kind::kAccelerated;
   return kind == "manoeuvre" ? Motion::Kind::kManoeuvre : Motion::Kind::kCommand;
 }
 
@@ -59,6 +60,30 @@ void readManoeuvre(core::Params& p, Motion& m)
   if (m.switchMax < m.switchMin) p.fail("switch_max_s", "is below switch_min_s", "raise it");
   m.border = p.nonNegative("border_m", m.border);
 }
+
+void readAcceleration(core::Params& p, Motion& m)
+{
+  const bool used = m.kind == Motion::Kind::kAccelerated;
+  const auto unless = [used](double otherwise)
+  { return used ? std::nullopt : std::optional(otherwise); };
+  m.jerkNoise = p.nonNegative("jerk_noise_mps3_per_sqrt_hz", unless(0));
+  m.speedBand = p.positive("speed_band_mps", unless(m.speedBand));
+  m.cone = p.inRange("direction_cone_deg", 0.01, 89, unless(m.cone));
+  if (used && m.speedBand >= m.speed)
+    p.fail("speed_band_mps", "lets it stand still or turn back", "set it below speed_mps");
+}
+
+void readNoise(core::Params& p, Motion& m)
+{
+  // A point has no wheels: its jerk is all that is random.
+  const bool isPoint = m.kind == Motion::Kind::kAccelerated;
+  const auto otherwise = isPoint ? std::optional(0.0) : std::nullopt;
+  m.vStd = p.nonNegative("v_std_mps", otherwise);
+  m.omegaStd = p.nonNegative("omega_std_radps", otherwise);
+  if (isPoint && (m.vStd > 0 || m.omegaStd > 0))
+    p.fail(m.vStd > 0 ? "v_std_mps" : "omega_std_radps", "is not for motion = accelerated",
+           "set it to 0, and jerk_noise_mps3_per_sqrt_hz");
+}
 }  // namespace
 
 Motion Motion::from(core::Params& p, const Area& area)
@@ -73,8 +98,8 @@ Motion Motion::from(core::Params& p, const Area& area)
   readWaypoints(p, m);
   readManoeuvre(p, m);
   readStart(p, m);
-  m.vStd = p.nonNegative("v_std_mps");
-  m.omegaStd = p.nonNegative("omega_std_radps");
+  readAcceleration(p, m);
+  readNoise(p, m);
   return m;
 }
 }  // namespace slamot::sim

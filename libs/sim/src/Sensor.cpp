@@ -14,12 +14,13 @@ std::vector<Seen> sense(const SensorSetup& sensor, const Pose2D& robot,
   {
     const auto z = models::RangeBearing::predict(robot, at);
     if (!sensor.fov.contains(z[0], z[1])) continue;
-    auto random = stream(keys.seed, keys.sensing, keys.step, static_cast<std::uint64_t>(id));
+    auto random =
+        stream(keys.seed, keys.sensing, keys.step, keys.observer + static_cast<std::uint64_t>(id));
     if (random.uniform() >= sensor.detection) continue;
     const double range = z[0] + sensor.rangeStd * random.normal();
     out.push_back({range, math::wrapToPi(z[1] + sensor.bearingStd * random.normal()), id});
   }
-  auto random = stream(keys.seed, keys.clutter, keys.step, 0);
+  auto random = stream(keys.seed, keys.clutter, keys.step, keys.observer);
   for (int n = random.poisson(sensor.clutter); n > 0; --n)
   {
     const double range = random.uniform(sensor.fov.rangeMin, sensor.fov.rangeMax);
@@ -30,11 +31,28 @@ std::vector<Seen> sense(const SensorSetup& sensor, const Pose2D& robot,
   return out;
 }
 
-bool usable(const SensorSetup& sensor, const Seen& seen)
+bool usable(const SensorSetup& sensor, const core::FieldOfView& fov, const Seen& seen)
 {
   // A bearing-only blob has no range to be wrong.
-  if (sensor.bearingOnly)
-    return seen.bearing >= sensor.fov.bearingMin && seen.bearing <= sensor.fov.bearingMax;
-  return seen.range > 0 && sensor.fov.contains(seen.range, seen.bearing);
+  if (sensor.bearingOnly) return seen.bearing >= fov.bearingMin && seen.bearing <= fov.bearingMax;
+  return seen.range > 0 && fov.contains(seen.range, seen.bearing);
+}
+
+core::Sighting toSighting(const SensorSetup& sensor, const Seen& seen)
+{
+  return {seen.range, seen.bearing, sensor.rangeStd, sensor.bearingStd,
+          sensor.identities ? seen.object : core::kNoId};
+}
+
+core::Blob toBlob(const SensorSetup& sensor, const Seen& seen, const std::string& label)
+{
+  core::Blob blob;
+  blob.label = label;
+  if (!sensor.bearingOnly) blob.range = seen.range;
+  if (!sensor.bearingOnly) blob.rangeStd = sensor.rangeStd;
+  blob.bearing = seen.bearing;
+  blob.bearingStd = sensor.bearingStd;
+  if (sensor.identities) blob.id = seen.object;
+  return blob;
 }
 }  // namespace slamot::sim

@@ -18,7 +18,7 @@ struct ScanKeys
 {
   std::uint64_t seed = 0;
   Purpose sensing = Purpose::kLandmarkSensing, clutter = Purpose::kLandmarkClutter;
-  std::uint64_t step = 0;
+  std::uint64_t step = 0, observer = 0;
 };
 
 /// One scan from the robot's pose, by rising bearing: objects whose true place is in view are seen
@@ -27,6 +27,12 @@ struct ScanKeys
 [[nodiscard]] std::vector<Seen> sense(const SensorSetup& sensor, const Pose2D& robot,
                                       const std::map<int, Point2D>& objects, const ScanKeys& keys);
 
-/// Whether readers keep it: range above zero and inside the field of view.
-[[nodiscard]] bool usable(const SensorSetup& sensor, const Seen& seen);
+/// Whether readers keep it: range above zero and inside the scan's field of view.
+[[nodiscard]] bool usable(const SensorSetup& sensor, const core::FieldOfView& fov,
+                          const Seen& seen);
+
+/// As the sensor reports it.
+[[nodiscard]] core::Sighting toSighting(const SensorSetup& sensor, const Seen& seen);
+[[nodiscard]] core::Blob toBlob(const SensorSetup& sensor, const Seen& seen,
+                                const std::string& label);
 }  // namespace slamot::sim

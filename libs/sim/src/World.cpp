@@ -1,37 +1,27 @@
+#include <slamot/core/Error.h>
 #include <slamot/sim/World.h>
 
 #include "Bodies.h"
 #include "Sensor.h"
 #include "starts.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slamot::sim
 {
 namespace
 {
-core::Sighting toSighting(const SensorSetup& sensor, const Seen& seen)
+core::FieldOfView hullOf(const core::FieldOfView& a, const core::FieldOfView& b)
 {
-  return {seen.range, seen.bearing, sensor.rangeStd, sensor.bearingStd,
-          sensor.identities ? seen.object : core::kNoId};
-}
-
-core::Blob toBlob(const SensorSetup& sensor, const Seen& seen, const std::string& label)
-{
-  core::Blob blob;
-  blob.label = label;
-  if (!sensor.bearingOnly) blob.range = seen.range;
-  if (!sensor.bearingOnly) blob.rangeStd = sensor.rangeStd;
-  blob.bearing = seen.bearing;
-  blob.bearingStd = sensor.bearingStd;
-  if (sensor.identities) blob.id = seen.object;
-  return blob;
+  return {std::min(a.rangeMin, b.rangeMin), std::max(a.rangeMax, b.rangeMax),
+          std::min(a.bearingMin, b.bearingMin), std::max(a.bearingMax, b.bearingMax)};
 }
 }  // namespace
 
 struct World::Impl
 {
-  Impl(const Scenario& s, std::uint64_t seedGiven, bool rawSightings);
+  Impl(const Scenario& s, std::uint64_t seedGiven, bool rawSightings, int robotIndex);
 
   // Whole ticks of 100 ns, as a rawlog holds them.
   [[nodiscard]] double time() const
@@ -42,23 +32,35 @@ struct World::Impl
                                        const std::map<int, Point2D>& objects, Purpose sensing,
                                        Purpose clutter) const
   {
-    return sense(sensor, bodies.robot(), objects,
-                 {seed, sensing, clutter, static_cast<std::uint64_t>(bodies.step())});
+    return sense(
+        sensor, bodies.robot(robot), objects,
+        {seed, sensing, clutter, static_cast<std::uint64_t>(bodies.step()), robotKey(robot)});
   }
   void scanLandmarks(core::Step& out);
-  void scanTargets(core::Step& out);
+  [[nodiscard]] core::FieldOfView blobView() const;
+  void addBlob(core::Step& out, const SensorSetup& sensor, const Seen& seen,
+               const std::string& label) const;
+  void scanTargets(core::Step& out) const;
+  void scanMates(core::Step& out) const;
+  void scanBlobs(core::Step& out) const;
   void recordPoses();
 
   Scenario scenario;
   std::uint64_t seed;
   bool raw;
+  int robot;
   Bodies bodies;
   core::Starts starts;
   eval::Truth truth;
 };
 
-World::Impl::Impl(const Scenario& s, std::uint64_t seedGiven, bool rawSightings)
-    : scenario(s), seed(seedGiven), raw(rawSightings), bodies(s, seedGiven), starts(bodies.starts())
+World::Impl::Impl(const Scenario& s, std::uint64_t seedGiven, bool rawSightings, int robotIndex)
+    : scenario(s),
+      seed(seedGiven),
+      raw(rawSightings),
+      robot(robotIndex),
+      bodies(s, seedGiven),
+      starts(bodies.starts(robotIndex))
 {
   starts.time = time();
   truth.landmarks = placeLandmarks(s, seed);
@@ -67,7 +69,7 @@ World::Impl::Impl(const Scenario& s, std::uint64_t seedGiven, bool rawSightings)
 
 void World::Impl::recordPoses()
 {
-  truth.robot.poses.push_back({time(), bodies.robot(), true});
+  truth.robot.poses.push_back({time(), bodies.robot(robot), true});
   for (const auto& [id, pose] : bodies.presentTargets())
     truth.targets[id].poses.push_back({time(), pose, true});
 }
@@ -80,7 +82,7 @@ void World::Impl::scanLandmarks(core::Step& out)
   for (const Seen& seen :
        scan(sensor, truth.landmarks, Purpose::kLandmarkSensing, Purpose::kLandmarkClutter))
   {
-    const bool kept = usable(sensor, seen);
+    const bool kept = usable(sensor, sensor.fov, seen);
     if (kept) truth.associations.push_back({out.time, index++, seen.object});
     if (kept || raw)
       out.landmarks->sightings.push_back(toSighting(sensor, seen));
@@ -89,27 +91,57 @@ void World::Impl::scanLandmarks(core::Step& out)
   }
 }
 
-void World::Impl::scanTargets(core::Step& out)
+core::FieldOfView World::Impl::blobView() const
+{
+  const core::FieldOfView& own = scenario.targetSensor.fov;
+  return scenario.mateSensor ? hullOf(own, scenario.mateSensor->fov) : own;
+}
+
+void World::Impl::addBlob(core::Step& out, const SensorSetup& sensor, const Seen& seen,
+                          const std::string& label) const
+{
+  if (usable(sensor, out.blobs->fov, seen) || raw)
+    out.blobs->blobs.push_back(toBlob(sensor, seen, label));
+  else
+    ++out.dropped;
+}
+
+void World::Impl::scanTargets(core::Step& out) const
 {
   const SensorSetup& sensor = scenario.targetSensor;
   std::map<int, Point2D> places;
   for (const auto& [id, pose] : bodies.presentTargets()) places[id] = {pose.x, pose.y};
-  out.blobs.emplace().fov = sensor.fov;
   for (const Seen& seen : scan(sensor, places, Purpose::kTargetSensing, Purpose::kTargetClutter))
   {
     const bool clutter = seen.object == core::kNoId;
-    const std::string& label =
-        clutter ? sensor.clutterLabel : scenario.targets.at(seen.object).label;
-    if (usable(sensor, seen) || raw)
-      out.blobs->blobs.push_back(toBlob(sensor, seen, label));
-    else
-      ++out.dropped;
+    addBlob(out, sensor, seen,
+            clutter ? sensor.clutterLabel : scenario.targets.at(seen.object).label);
   }
 }
 
-World::World(const Scenario& scenario, std::uint64_t seed, Sightings sightings)
-    : impl_(std::make_unique<Impl>(scenario, seed, sightings == Sightings::kRaw))
+void World::Impl::scanMates(core::Step& out) const
 {
+  const SensorSetup& sensor = *scenario.mateSensor;
+  for (const Seen& seen :
+       scan(sensor, bodies.matesOf(robot), Purpose::kMateSensing, Purpose::kMateClutter))
+    addBlob(out, sensor, seen, seen.object == core::kNoId ? sensor.clutterLabel : sensor.label);
+  std::stable_sort(out.blobs->blobs.begin(), out.blobs->blobs.end(),
+                   [](const core::Blob& a, const core::Blob& b) { return a.bearing < b.bearing; });
+}
+
+void World::Impl::scanBlobs(core::Step& out) const
+{
+  out.blobs.emplace().fov = blobView();
+  scanTargets(out);
+  if (scenario.mateSensor) scanMates(out);
+}
+
+World::World(const Scenario& scenario, std::uint64_t seed, Sightings sightings, int robot)
+{
+  if (robot < 0 || robot >= static_cast<int>(scenario.robots.size()))
+    throw core::Error(core::ExitStatus::kConfig, scenario.name,
+                      "has no robot " + std::to_string(robot), "add its section");
+  impl_ = std::make_unique<Impl>(scenario, seed, sightings == Sightings::kRaw, robot);
 }
 World::~World() = default;
 
@@ -118,13 +150,13 @@ std::optional<core::Step> World::next()
   Impl& w = *impl_;
   if (w.bodies.step() >= w.scenario.steps) return std::nullopt;
   core::Step out;
-  out.odometry = w.bodies.move();
+  out.odometry = w.bodies.move()[std::size_t(w.robot)];
   out.time = w.time();
   w.recordPoses();
   if (w.bodies.step() % w.scenario.scanEvery == 0)
   {
     w.scanLandmarks(out);
-    w.scanTargets(out);
+    w.scanBlobs(out);
   }
   return out;
 }

@@ -43,16 +43,17 @@ Pose2D place(const Motion& m, const Area& area, math::RandomStream& random)
   return {at.x, at.y, random.uniform(-math::kPi, math::kPi)};
 }
 
-Pose2D placeFacing(const Pose2D& target, const Scenario& s, math::RandomStream& random)
+Pose2D placeFacing(const Pose2D& target, const Scenario& s, const RobotSetup& robot,
+                   math::RandomStream& random)
 {
-  const double distance = s.robot.motion.startDistance;
+  const double distance = robot.motion.startDistance;
   for (int i = 0; i < kTries; ++i)
   {
     const double a = random.uniform(-math::kPi, math::kPi);
     const Point2D at{target.x - distance * std::cos(a), target.y - distance * std::sin(a)};
     if (s.area.contains(at)) return {at.x, at.y, a};
   }
-  noPlace(s, "[robot] start_distance_m", "the robot inside the world", "lower it");
+  noPlace(s, "[" + robot.section + "] start_distance_m", "the robot inside the world", "lower it");
 }
 
 bool clearOf(const std::map<int, Point2D>& others, const Point2D& p, double spacing)
@@ -94,13 +95,14 @@ std::map<int, Pose2D> placeTargets(const Scenario& s, std::uint64_t seed)
   return out;
 }
 
-Pose2D placeRobot(const Scenario& s, const std::map<int, Pose2D>& targets, std::uint64_t seed)
+Pose2D placeRobot(const Scenario& s, int robot, const std::map<int, Pose2D>& targets,
+                  std::uint64_t seed)
 {
-  auto random = stream(seed, Purpose::kStart, 0, kRobot);
-  const Motion& m = s.robot.motion;
-  if (m.startAt != Motion::StartAt::kNearTarget) return place(m, s.area, random);
-  const Pose2D& target = s.robot.following ? targets.at(s.robot.followed) : targets.begin()->second;
-  return placeFacing(target, s, random);
+  auto random = stream(seed, Purpose::kStart, 0, robotKey(robot));
+  const RobotSetup& r = s.robots.at(static_cast<std::size_t>(robot));
+  if (r.motion.startAt != Motion::StartAt::kNearTarget) return place(r.motion, s.area, random);
+  const Pose2D& target = r.following ? targets.at(r.followed) : targets.begin()->second;
+  return placeFacing(target, s, r, random);
 }
 
 core::ObjectStart knownStart(const StartKnowledge& knowledge, const Motion& motion,
@@ -115,11 +117,17 @@ core::ObjectStart knownStart(const StartKnowledge& knowledge, const Motion& moti
     out.std[i] = knowledge.std[i];
   }
   out.value[S::kTheta] = math::wrapToPi(*out.value[S::kTheta]);
-  if (!knowledge.velocityStd) return out;
-  const double std = *knowledge.velocityStd;
-  out.value[S::kVx] = motion.speed * std::cos(truth.phi) + std * random.normal();
-  out.value[S::kVy] = motion.speed * std::sin(truth.phi) + std * random.normal();
-  out.std[S::kVx] = out.std[S::kVy] = std;
+  const auto tell = [&](S::Field x, double trueX, S::Field y, double trueY, double std)
+  {
+    out.value[x] = trueX + std * random.normal();
+    out.value[y] = trueY + std * random.normal();
+    out.std[x] = out.std[y] = std;
+  };
+  if (knowledge.velocityStd)
+    tell(S::kVx, motion.speed * std::cos(truth.phi), S::kVy, motion.speed * std::sin(truth.phi),
+         *knowledge.velocityStd);
+  // What accelerates starts without acceleration.
+  if (knowledge.accelerationStd) tell(S::kAx, 0, S::kAy, 0, *knowledge.accelerationStd);
   return out;
 }
 }  // namespace slamot::sim

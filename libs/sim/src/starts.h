@@ -12,8 +12,8 @@ namespace slamot::sim
 /// target, leaves no place in the area.
 [[nodiscard]] std::map<int, Point2D> placeLandmarks(const Scenario& scenario, std::uint64_t seed);
 [[nodiscard]] std::map<int, Pose2D> placeTargets(const Scenario& scenario, std::uint64_t seed);
-[[nodiscard]] Pose2D placeRobot(const Scenario& scenario, const std::map<int, Pose2D>& targets,
-                                std::uint64_t seed);
+[[nodiscard]] Pose2D placeRobot(const Scenario& scenario, int robot,
+                                const std::map<int, Pose2D>& targets, std::uint64_t seed);
 
 /// What a filter is told of an object's start: the truth with an error.
 [[nodiscard]] core::ObjectStart knownStart(const StartKnowledge& knowledge, const Motion& motion,

@@ -16,11 +16,17 @@ enum class Purpose : std::uint64_t
   kLandmarkSensing,
   kLandmarkClutter,
   kTargetSensing,
-  kTargetClutter
+  kTargetClutter,
+  kMateSensing,
+  kMateClutter
 };
 
-/// The robot's place among the objects; targets follow at id + 1.
-inline constexpr std::uint64_t kRobot = 0;
+/// A robot's place among the objects, and what it adds to those it senses and knows of.  Targets
+/// lie at id + 1, between robots 0 and 1.
+[[nodiscard]] inline std::uint64_t robotKey(int robot)
+{
+  return static_cast<std::uint64_t>(robot) << 32;
+}
 [[nodiscard]] inline std::uint64_t targetKey(int id)
 {
   return static_cast<std::uint64_t>(id) + 1;

@@ -26,11 +26,12 @@ struct Motion
 {
   enum class Kind
   {
-    kCircle,     ///< constant speed and turn rate, starting on the circle
-    kWaypoints,  ///< steers from point to point
-    kStraight,   ///< constant speed
-    kManoeuvre,  ///< constant speed; the turn rate changes its sign at random times
-    kCommand     ///< constant speed and turn rate from wherever it starts
+    kCircle,      ///< constant speed and turn rate, starting on the circle
+    kWaypoints,   ///< steers from point to point
+    kStraight,    ///< constant speed
+    kManoeuvre,   ///< constant speed; the turn rate changes its sign at random times
+    kCommand,     ///< constant speed and turn rate from wherever it starts
+    kAccelerated  ///< a point (targets only): nearly constant acceleration, never turning back
   };
   enum class StartAt
   {
@@ -55,6 +56,9 @@ struct Motion
   double switchMin = 1;  ///< time between changes of the manoeuvre's sign,
   double switchMax = 3;  ///< uniform between these [s]
   double border = 1;     ///< a manoeuvre turns back this far from the area's sides [m]
+  double jerkNoise = 0;  ///< of accelerated motion, white [m/s³ per square root of Hz]
+  double speedBand = 1;  ///< its speed stays this near to `speed` [m/s]
+  double cone = 0.7;     ///< its direction stays this near to that of the start [rad]
   StartAt startAt = StartAt::kPath;
   Pose2D start;                   ///< if given
   double startDistance = 4;       ///< from the target, if near it [m]

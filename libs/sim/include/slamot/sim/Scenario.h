@@ -14,17 +14,20 @@ namespace slamot::sim
 struct StartKnowledge
 {
   bool known = true;
-  std::array<double, 3> std{0, 0, 0};  ///< of x, y, theta [m, m, rad]
-  std::optional<double> velocityStd;   ///< of vx and vy [m/s]; absent: velocity is not told
+  std::array<double, 3> std{0, 0, 0};     ///< of x, y, theta [m, m, rad]
+  std::optional<double> velocityStd;      ///< of vx and vy [m/s]; absent: velocity is not told
+  std::optional<double> accelerationStd;  ///< of ax and ay [m/s²]; absent: it is not told
 };
 
 struct RobotSetup
 {
+  std::string section = "robot";  ///< of the scenario, for messages
   Motion motion;
   StartKnowledge start;
   bool following = false;       ///< drives after a target instead of by its own motion
   int followed = 0;             ///< that target's id
-  double followDistance = 1;    ///< keeps this far [m]
+  double followSide = 0;        ///< heads for a point this far left of it, across its motion [m]
+  double followDistance = 1;    ///< keeps this far from that point [m]
   double followGain = 2;        ///< speed by distance [1/s]
   double followSpeedRatio = 1;  ///< its top speed by the target's
 };
@@ -49,24 +52,27 @@ struct SensorSetup
   double clutter = 0;                         ///< false sightings a scan, mean
   bool identities = true;                     ///< whether it tells which one it saw
   bool bearingOnly = false;                   ///< of blobs
-  std::string clutterLabel = "target";        ///< of blobs
+  std::string clutterLabel = "target";        ///< of false blobs
+  std::string label = "robot";                ///< of the mate sensor's true blobs
 };
 
-/// A world to simulate.  Sections [world] [robot] [target] or [target_<id>] [landmark_sensor]
-/// [target_sensor]; config-ini/sim.experiment1.ini comments every key.
+/// A world to simulate.  Sections [world]; [robot], or [robot_0], [robot_1], ... for a team;
+/// [target] or [target_<id>]; [landmark_sensor] [target_sensor]; and [mate_sensor] if robots see
+/// one another.  config-ini/sim.experiment1.ini comments every key.
 struct Scenario
 {
   std::string name;  ///< of its file, for messages
   Area area;
   double startTime = 0, dt = 0.025;  ///< [s]
   int steps = 320;
-  int scanEvery = 8;                       ///< steps from one scan to the next
-  int landmarks = 0;                       ///< placed at random
-  double landmarkSpacing = 0;              ///< smallest distance between two of them [m]
-  std::vector<Point2D> landmarkPositions;  ///< given ones, instead
-  RobotSetup robot;
-  std::map<int, TargetSetup> targets;  ///< [target] is number 1
-  SensorSetup landmarkSensor, targetSensor;
+  int scanEvery = 8;                         ///< steps from one scan to the next
+  int landmarks = 0;                         ///< placed at random
+  double landmarkSpacing = 0;                ///< smallest distance between two of them [m]
+  std::vector<Point2D> landmarkPositions;    ///< given ones, instead
+  std::vector<RobotSetup> robots;            ///< at least one
+  std::map<int, TargetSetup> targets;        ///< [target] is number 1
+  SensorSetup landmarkSensor, targetSensor;  ///< of every robot
+  std::optional<SensorSetup> mateSensor;     ///< for the other robots; absent: not seen
 
   /// Reads the sections; config.requireAllRead() then finds what nobody knows.
   /// \throws core::Error (kConfig).

@@ -9,8 +9,9 @@
 
 namespace slamot::sim
 {
-/// Runs a scenario: the steps that its robot reports, with the truth beside them.  Equal scenario
-/// and seed give equal steps.
+/// Runs a scenario: the steps that one of its robots reports, with the truth beside them.  Equal
+/// scenario and seed give equal steps.  Worlds of the same scenario and seed for several robots
+/// are one world: the same landmarks, targets and clock, and each sees the others where they are.
 class World : public core::Source
 {
  public:
@@ -20,8 +21,11 @@ class World : public core::Source
     kRaw      ///< as a sensor puts them out, to be written to a log
   };
 
-  /// \throws core::Error (kConfig) if the scenario leaves no place for an object.
-  World(const Scenario& scenario, std::uint64_t seed, Sightings sightings = Sightings::kAsRead);
+  /// \param robot its index.
+  /// \throws core::Error (kConfig) if the scenario leaves no place for an object, or has no such
+  /// robot.
+  World(const Scenario& scenario, std::uint64_t seed, Sightings sightings = Sightings::kAsRead,
+        int robot = 0);
   ~World() override;
 
   std::optional<core::Step> next() override;
@@ -29,8 +33,9 @@ class World : public core::Source
 
   /// What a filter may know of the starts, in the map frame.
   [[nodiscard]] const core::Starts& starts() const;
-  /// From the start to the last step delivered.  A target has poses while it is present only;
-  /// associations count a step's sightings as a reader delivers them.
+  /// From the start to the last step delivered; of this robot, without its mates.  A target has
+  /// poses while it is present only; associations count a step's sightings as a reader delivers
+  /// them.
   [[nodiscard]] const eval::Truth& truth() const;
 
  private:

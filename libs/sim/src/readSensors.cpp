@@ -1,0 +1,54 @@
+#include "readSections.h"
+
+namespace slamot::sim
+{
+namespace
+{
+constexpr double kMostClutter = 500;  // what the Poisson draw is good for
+
+SensorSetup readSensor(core::Params& p)
+{
+  SensorSetup s;
+  s.fov.rangeMin = p.nonNegative("range_min_m", 0.0);
+  s.fov.rangeMax = p.positive("range_max_m");
+  if (s.fov.rangeMax <= s.fov.rangeMin)
+    p.fail("range_max_m", "is not above range_min_m", "raise it");
+  s.fov.bearingMin = p.inRange("bearing_min_deg", -180, 180, -math::kPi);
+  s.fov.bearingMax = p.inRange("bearing_max_deg", -180, 180, math::kPi);
+  if (s.fov.bearingMax <= s.fov.bearingMin)
+    p.fail("bearing_max_deg", "is not above bearing_min_deg", "raise it");
+  s.rangeStd = p.positive("range_std_m");
+  s.bearingStd = p.positive("bearing_std_rad");
+  s.detection = p.inRange("detection_probability", 0, 1, 1.0);
+  s.clutter = p.inRange("clutter_per_scan", 0, kMostClutter, 0.0);
+  s.identities = p.flag("identities", true);
+  return s;
+}
+}  // namespace
+
+SensorSetup readLandmarkSensor(core::Config& config)
+{
+  core::Params p(config, "landmark_sensor");
+  return readSensor(p);
+}
+
+SensorSetup readTargetSensor(core::Config& config)
+{
+  core::Params p(config, "target_sensor");
+  SensorSetup s = readSensor(p);
+  s.bearingOnly = p.flag("bearing_only", false);
+  s.clutterLabel = p.text("clutter_label", "target");
+  return s;
+}
+
+std::optional<SensorSetup> readMateSensor(core::Config& config)
+{
+  if (!config.has("mate_sensor")) return std::nullopt;
+  core::Params p(config, "mate_sensor");
+  SensorSetup s = readSensor(p);
+  s.bearingOnly = p.flag("bearing_only", false);
+  s.label = p.text("label", "robot");
+  s.clutterLabel = p.text("clutter_label", "robot");
+  return s;
+}
+}  // namespace slamot::sim
