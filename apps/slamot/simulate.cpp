@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "Command.h"
+#include "TeamLogs.h"
 #include "rawlogOutput.h"
 
 namespace slamot::apps
@@ -40,32 +41,85 @@ sim::Scenario readScenario(const SimulateOptions& o)
   return scenario;
 }
 
-int simulate(const SimulateOptions& o)
+mrpt::RawlogWriter openLog(const std::string& path, const sim::World& world,
+                           const SimulateOptions& o)
 {
-  // As the sensor puts them out: what lies out of its view is for the reader to drop.
-  sim::World world(readScenario(o), o.common.seed, sim::World::Sightings::kRaw);
-  const std::string path =
-      rawlogOutput(o.common.output.empty() ? defaultOutput(o.scenario) : o.common.output);
   using Format = mrpt::RawlogWriter::Format;
-  mrpt::RawlogWriter writer(
-      path, o.format == "frames" ? Format::kActionFrames : Format::kObservations, world.starts());
+  return {path, o.format == "frames" ? Format::kActionFrames : Format::kObservations,
+          world.starts()};
+}
+
+struct Tally
+{
   std::size_t steps = 0, scans = 0;
+};
+
+/// All steps of a world; none if interrupted.
+std::optional<Tally> writeSteps(sim::World& world, mrpt::RawlogWriter& writer)
+{
+  Tally out;
   while (const auto step = world.next())
   {
-    if (interrupted) return static_cast<int>(ExitStatus::kInterrupted);
+    if (interrupted) return std::nullopt;
     writer.write(*step);
-    ++steps;
-    if (step->landmarks) ++scans;
+    ++out.steps;
+    if (step->landmarks) ++out.scans;
   }
-  const std::string truth = results::truthFolder(path);
-  results::saveTruth(truth, world.truth());
+  return out;
+}
+
+void report(const std::string& path, const Tally& tally, const eval::Truth& truth)
+{
+  std::printf("%s: %s, %s, %s, %s; truth in %s\n", path.c_str(), count(tally.steps, "step").c_str(),
+              count(tally.scans, "scan").c_str(), count(truth.landmarks.size(), "landmark").c_str(),
+              count(truth.targets.size(), "target").c_str(), results::truthFolder(path).c_str());
+}
+
+// Logs are as the sensor puts them out: what lies out of its view is for the reader to drop.
+constexpr auto kRaw = sim::World::Sightings::kRaw;
+
+ExitStatus simulateOne(const sim::Scenario& scenario, const std::string& output,
+                       const SimulateOptions& o)
+{
+  sim::World world(scenario, o.common.seed, kRaw);
+  const std::string path = rawlogOutput(output);
+  mrpt::RawlogWriter writer = openLog(path, world, o);
+  const auto tally = writeSteps(world, writer);
+  if (!tally) return ExitStatus::kInterrupted;
+  results::saveTruth(results::truthFolder(path), world.truth());
   writer.close();
-  if (!o.common.quiet)
-    std::printf("%s: %s, %s, %s, %s; truth in %s\n", path.c_str(), count(steps, "step").c_str(),
-                count(scans, "scan").c_str(),
-                count(world.truth().landmarks.size(), "landmark").c_str(),
-                count(world.truth().targets.size(), "target").c_str(), truth.c_str());
-  return static_cast<int>(ExitStatus::kDone);
+  if (!o.common.quiet) report(path, *tally, world.truth());
+  return ExitStatus::kDone;
+}
+
+ExitStatus simulateTeam(const sim::Scenario& scenario, const std::string& output,
+                        const SimulateOptions& o)
+{
+  TeamLogs logs(output);
+  std::vector<Tally> tallies;
+  for (int robot = 0; robot < static_cast<int>(scenario.robots.size()); ++robot)
+  {
+    sim::World world(scenario, o.common.seed, kRaw, robot);
+    mrpt::RawlogWriter writer = openLog(logs.partOf(robot), world, o);
+    const auto tally = writeSteps(world, writer);
+    if (!tally) return ExitStatus::kInterrupted;
+    writer.close();
+    logs.add(robot, world.truth());
+    tallies.push_back(*tally);
+  }
+  logs.place();
+  for (std::size_t i = 0; i < tallies.size() && !o.common.quiet; ++i)
+    report(logs.pathOf(int(i)), tallies[i], logs.truth(int(i)));
+  return ExitStatus::kDone;
+}
+
+int simulate(const SimulateOptions& o)
+{
+  const sim::Scenario scenario = readScenario(o);
+  const std::string output = o.common.output.empty() ? defaultOutput(o.scenario) : o.common.output;
+  const bool alone = scenario.robots.size() == 1;
+  return static_cast<int>(alone ? simulateOne(scenario, output, o)
+                                : simulateTeam(scenario, output, o));
 }
 }  // namespace
 
@@ -79,7 +133,7 @@ void addSimulate(CLI::App& app, int& status)
   options->common.addTo(*command);
   command->get_option("--output")
       ->description(
-          "The rawlog, X.rawlog; truth goes to X.truth/ "
+          "The rawlog, X.rawlog; truth goes to X.truth/; several robots: X.robot0.rawlog, ... "
           "(default slamot-out/<scenario>.rawlog)")
       ->type_name("X.rawlog");
   command->add_option("scenario", options->scenario, "The scenario, as config-ini/sim.*.ini")

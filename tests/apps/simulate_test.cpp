@@ -6,6 +6,9 @@
 #include <slamot/results/TruthFiles.h>
 #include <slamot/sim/World.h>
 
+#include <algorithm>
+#include <filesystem>
+
 namespace slamot
 {
 namespace
@@ -84,6 +87,59 @@ TEST(SimulateCommand, SameSeedSameBytes)
   EXPECT_GT(folder.read("a.rawlog").size(), 5000u);
 }
 
+std::vector<std::string> filesIn(const std::string& folder)
+{
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    out.push_back(entry.path().filename().string());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+TEST(SimulateCommand, WritesALogForEachRobotOfATeam)
+{
+  const TemporaryFolder folder;
+  const auto outcome = test::slamot("simulate " + kScenarios +
+                                        "sim.team-300m.ini --seed 5 -o a.rawlog --set "
+                                        "world.steps=100 --set landmark_sensor.range_std_m=3",
+                                    folder.file(""));
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_EQ(outcome.text,
+            "a.robot0.rawlog: 100 steps, 100 scans, 150 landmarks, 1 target; truth in "
+            "a.robot0.truth\n"
+            "a.robot1.rawlog: 100 steps, 100 scans, 150 landmarks, 1 target; truth in "
+            "a.robot1.truth\n");
+  EXPECT_EQ(filesIn(folder.file("")),
+            (std::vector<std::string>{"a.robot0.rawlog", "a.robot0.truth", "a.robot1.rawlog",
+                                      "a.robot1.truth"}));
+  const sim::Scenario s =
+      scenario("sim.team-300m.ini", {"world.steps=100", "landmark_sensor.range_std_m=3"});
+  for (int robot = 0; robot < 2; ++robot)
+  {
+    const std::string name = "a.robot" + std::to_string(robot);
+    mrpt::RawlogSource source(folder.file(name + ".rawlog"), {});
+    sim::World world(s, 5, sim::World::Sightings::kAsRead, robot);
+    EXPECT_EQ(expectNear(world, source), 100);
+    expectNear(*source.starts().robot, *world.starts().robot);
+    expectNear(source.starts().targets.at(0), world.starts().targets.at(0));
+    expectNear(results::loadTruth(folder.file(name + ".truth")), world.truth());
+  }
+}
+
+TEST(SimulateCommand, ATeamsLogsAreAllThereOrNone)
+{
+  const TemporaryFolder folder;
+  // In the way of the second log.
+  std::filesystem::create_directory(folder.file("a.robot1.rawlog"));
+  const auto outcome =
+      test::slamot("simulate " + kScenarios + "sim.team-300m.ini -o a.rawlog --set world.steps=10",
+                   folder.file(""));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.text,
+            "slamot: error: a.robot1.rawlog: can't be written: Is a directory; write elsewhere\n");
+  EXPECT_EQ(filesIn(folder.file("")), std::vector<std::string>{"a.robot1.rawlog"});
+}
+
 TEST(SimulateCommand, WithoutOutputItNamesTheLogAfterTheScenario)
 {
   const TemporaryFolder folder;
@@ -112,6 +168,11 @@ TEST(SimulateCommand, WhatIsWrongIsOneLineAndLeavesNothing)
       "sim.experiment1.ini [world] landmark_spacing_min_m: leaves no place for landmark 5; lower "
       "it, or landmarks");
   expect(ini + " -o a.log", 1, "--output a.log: is not named as a rawlog; end it in .rawlog");
+  expect(kScenarios + "sim.team-300m.ini -o a.log", 1,
+         "--output a.log: is not named as a rawlog; end it in .rawlog");
+  expect(kScenarios + "sim.team-300m.ini -o a.rawlog --set robot_3.speed_mps=1", 1,
+         "sim.team-300m.ini [robot_3]: is there without [robot_2]; number robots from 0 without a "
+         "gap");
   expect("none.ini", 1, "none.ini: can't be read; give the path of an ini file");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.rawlog")));
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.truth")));
