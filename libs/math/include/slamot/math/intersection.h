@@ -49,12 +49,12 @@ struct IntersectionUpdate
 };
 
 /// The update for A = H P Hᵀ, innovation = b - H x, B and its part `independent` (read by kSplit
-/// only).  Without an omega, the one in [1e-4, 1] that makes the criterion smallest, which is convex
-/// in omega for all rules; where it is flat (equal covariances), 0.5.  A given omega in (0, 1] is
-/// used as it is, and pays unless 1.  Costs a few 8x8 operations, and no memory.
-/// \throws std::domain_error if sizes disagree or exceed kMaxBlock, a value is not finite, B is
-/// not positive definite, A, `independent` or B - `independent` (kSplit) is not positive
-/// semidefinite, or omega is out of range.
+/// only).  Without an omega, the one in [1e-4, 1] that makes the criterion smallest, which is
+/// convex in omega for all rules; where it is flat (equal covariances), 0.5.  A given omega in (0,
+/// 1] is used as it is, and pays unless 1.  Costs a few 8x8 operations, and no memory. \throws
+/// std::domain_error if sizes disagree or exceed kMaxBlock, a value is not finite, B is not
+/// positive definite, A, `independent` or B - `independent` (kSplit) is not positive semidefinite,
+/// or omega is out of range.
 [[nodiscard]] IntersectionUpdate intersect(Intersection rule,
                                            const Eigen::Ref<const Eigen::MatrixXd>& A,
                                            const Eigen::Ref<const Eigen::VectorXd>& innovation,
