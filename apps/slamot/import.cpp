@@ -1,6 +1,5 @@
 #include <slamot/core/Error.h>
 #include <slamot/importers/CsvFolder.h>
-#include <slamot/importers/Mrclam.h>
 #include <slamot/mrpt/RawlogWriter.h>
 #include <slamot/results/TruthFiles.h>
 
@@ -8,6 +7,8 @@
 #include <filesystem>
 
 #include "Command.h"
+#include "MrclamImport.h"
+#include "TeamLogs.h"
 #include "rawlogOutput.h"
 
 namespace slamot::apps
@@ -22,17 +23,14 @@ struct ImportOptions
 {
   std::string kind, source, output;
   bool quiet = false;
-  std::string start = "truth";
   double startTime = 0;
-  importers::MrclamOptions mrclam;
+  MrclamImport mrclam;
 };
 
 std::unique_ptr<importers::Import> open(const ImportOptions& o)
 {
   if (o.kind == "csv") return importers::openCsvFolder(o.source, o.startTime);
-  importers::MrclamOptions options = o.mrclam;
-  options.startFromTruth = o.start == "truth";
-  return importers::openMrclam(o.source, options);
+  return importers::openMrclam(o.source, o.mrclam.of(o.mrclam.options.robot));
 }
 
 bool holdsNothing(const eval::Truth& truth)
@@ -41,14 +39,19 @@ bool holdsNothing(const eval::Truth& truth)
          truth.associations.empty();
 }
 
-void report(const std::string& path, const importers::Counts& c, const std::string& truth)
+void report(const std::string& path, const importers::Import& source, const std::string& truth)
 {
-  std::string dropped = std::to_string(c.outOfView + c.outOfTime + c.unknown) + " dropped";
+  for (const std::string& warning : source.warnings())
+    std::fprintf(stderr, "slamot: warning: %s\n", warning.c_str());
+  const importers::Counts& c = source.counts();
+  std::string dropped =
+      std::to_string(c.outOfView + c.outOfTime + c.unknown + c.hidden) + " dropped";
   const auto reason = [&](std::size_t n, const char* why)
   { return n ? ", " + std::to_string(n) + " " + why : std::string(); };
   const std::string reasons = reason(c.outOfView, "at range <= 0 or out of the field of view") +
                               reason(c.outOfTime, "outside odometry's time") +
-                              reason(c.unknown, "with an unknown or the robot's own barcode");
+                              reason(c.unknown, "with an unknown or the robot's own barcode") +
+                              reason(c.hidden, "hidden landmarks");
   if (!reasons.empty()) dropped += " (" + reasons.substr(2) + ")";
   std::printf("%s: %s, %s in %s, %s in %s, %s, %s, %.3f s; truth: %s\n", path.c_str(),
               count(c.steps, "step").c_str(), count(c.sightings, "sighting").c_str(),
@@ -57,83 +60,60 @@ void report(const std::string& path, const importers::Counts& c, const std::stri
               dropped.c_str(), c.end - c.start, truth.empty() ? "none" : truth.c_str());
 }
 
-int import(const ImportOptions& o)
+/// All steps of a source; false if interrupted.
+bool writeSteps(importers::Import& source, mrpt::RawlogWriter& writer)
+{
+  while (const auto step = source.next())
+  {
+    if (interrupted) return false;
+    writer.write(*step);
+  }
+  return true;
+}
+
+mrpt::RawlogWriter openLog(const std::string& path, const importers::Import& source)
+{
+  return {path, mrpt::RawlogWriter::Format::kActionFrames, source.starts()};
+}
+
+ExitStatus importOne(const ImportOptions& o)
 {
   const std::string path = rawlogOutput(o.output);
   const auto source = open(o);
-  mrpt::RawlogWriter writer(path, mrpt::RawlogWriter::Format::kActionFrames, source->starts());
-  while (const auto step = source->next())
-  {
-    if (interrupted) return static_cast<int>(ExitStatus::kInterrupted);
-    writer.write(*step);
-  }
+  mrpt::RawlogWriter writer = openLog(path, *source);
+  if (!writeSteps(*source, writer)) return ExitStatus::kInterrupted;
   std::string truth = results::truthFolder(path);
   // An older import's truth must not stand beside this one's log.
   const bool none = holdsNothing(source->truth());
   if (!none || fs::exists(truth)) results::saveTruth(truth, source->truth());
   writer.close();
   if (none) truth.clear();
-  if (o.quiet) return static_cast<int>(ExitStatus::kDone);
-  for (const std::string& warning : source->warnings())
-    std::fprintf(stderr, "slamot: warning: %s\n", warning.c_str());
-  report(path, source->counts(), truth);
-  return static_cast<int>(ExitStatus::kDone);
+  if (!o.quiet) report(path, *source, truth);
+  return ExitStatus::kDone;
 }
 
-/// An option in degrees for a value kept in radians.
-CLI::Option* addDegrees(CLI::App& command, const std::string& name, double& radians,
-                        const std::string& what)
+ExitStatus importTeam(const ImportOptions& o)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", math::radToDeg(radians));
-  return command
-      .add_option_function<double>(
-          name, [&radians](double degrees) { radians = math::degToRad(degrees); }, what)
-      ->default_str(text);
+  TeamLogs logs(o.output);
+  std::vector<std::pair<int, std::unique_ptr<importers::Import>>> sources;
+  for (const int robot : importers::mrclamTeam(*o.mrclam.options.target))
+  {
+    auto source = importers::openMrclam(o.source, o.mrclam.of(robot));
+    mrpt::RawlogWriter writer = openLog(logs.partOf(robot), *source);
+    if (!writeSteps(*source, writer)) return ExitStatus::kInterrupted;
+    writer.close();
+    logs.add(robot, source->truth());
+    sources.emplace_back(robot, std::move(source));
+  }
+  logs.place();
+  for (const auto& [robot, source] : sources)
+    if (!o.quiet) report(logs.pathOf(robot), *source, results::truthFolder(logs.pathOf(robot)));
+  return ExitStatus::kDone;
 }
 
-void addSensorOptions(CLI::App& command, ImportOptions& o)
+int import(const ImportOptions& o)
 {
-  importers::MrclamOptions& m = o.mrclam;
-  importers::WheelNoise& wheels = m.wheels;
-  const std::vector<CLI::Option*> options = {
-      command.add_option("--std-distance", wheels.distance, "Odometry's distance [m/sqrt(s)]"),
-      command.add_option("--std-distance-turning", wheels.distanceTurning,
-                         "The same while turning [m/sqrt(rad turned)]"),
-      addDegrees(command, "--std-heading", wheels.heading, "Odometry's heading [deg/sqrt(s)]"),
-      command.add_option("--std-heading-turning", wheels.headingTurning,
-                         "The same while turning [rad/sqrt(rad turned)]"),
-      command.add_option("--std-range", m.rangeStd, "Ranges [m]"),
-      command.add_option("--std-range-scale", m.rangeScaleStd,
-                         "Ranges, part of the range, added in squares"),
-      addDegrees(command, "--std-bearing", m.bearingStd, "Bearings [deg]")};
-  for (CLI::Option* option : options)
-    option->type_name("STD")->check(CLI::Range(0.0, 1e3))->capture_default_str();
-}
-
-void addMrclamOptions(CLI::App& command, ImportOptions& o)
-{
-  importers::MrclamOptions& m = o.mrclam;
-  command.add_option("--robot", m.robot, "Whose data, 1 to 5 (required)")
-      ->check(CLI::Range(1, 5))
-      ->type_name("N");
-  command.add_flag("--landmark-ids,!--no-landmark-ids", m.landmarkIds,
-                   "Sightings tell which landmark they are of (default), or not");
-  command.add_flag("--target-ids,!--no-target-ids", m.targetIds,
-                   "Blobs tell which robot they are of (default), or not");
-  command.add_option("--start", o.start, "Where the robot starts: at its true pose or the origin")
-      ->check(CLI::IsMember({"truth", "origin"}))
-      ->capture_default_str();
-  command.add_option("--max-step", m.maxStep, "Longest step between camera images [s]")
-      ->check(CLI::Range(1e-3, 1e3))
-      ->capture_default_str()
-      ->type_name("S");
-  command
-      .add_option("--odometry-delay", m.odometryDelay, "Motion follows logged velocities by [s]")
-      ->check(CLI::Range(-10.0, 10.0))
-      ->capture_default_str()
-      ->type_name("S");
-  addSensorOptions(command, o);
+  return static_cast<int>(o.mrclam.team ? importTeam(o) : importOne(o));
 }
 
 /// Options of another kind say nothing here: naming them is a mistake.
@@ -149,9 +129,7 @@ void checkKind(const CLI::App& csv, const CLI::App& mrclam, const ImportOptions&
 {
   if (o.kind != "csv") refuseOptions(csv, "csv");
   if (o.kind != "mrclam") refuseOptions(mrclam, "mrclam");
-  if (o.kind == "mrclam" && mrclam.count("--robot") == 0)
-    throw Error(ExitStatus::kConfig, "command line", "mrclam needs a robot",
-                "add --robot N, 1 to 5");
+  if (o.kind == "mrclam") o.mrclam.check(mrclam);
 }
 }  // namespace
 
@@ -162,7 +140,8 @@ void addImport(CLI::App& app, int& status)
       app.add_subcommand("import",
                          "Write a rawlog and its ground truth from data of another format.\n"
                          "Example: slamot import csv my-drive/ -o my-drive.rawlog\n"
-                         "         slamot import mrclam dataset6/ --robot 1 -o robot1.rawlog");
+                         "         slamot import mrclam dataset6/ --robot 1 -o robot1.rawlog\n"
+                         "         slamot import mrclam dataset6/ --team --target 5 -o all.rawlog");
   command
       ->add_option("kind", options->kind, "csv: a folder of CSV files; mrclam: a dataset's folder")
       ->required()
@@ -171,7 +150,9 @@ void addImport(CLI::App& app, int& status)
   command->add_option("source", options->source, "Where the data is")
       ->required()
       ->type_name("SOURCE");
-  command->add_option("-o,--output", options->output, "The rawlog; truth goes to X.truth/")
+  command
+      ->add_option("-o,--output", options->output,
+                   "The rawlog; truth goes to X.truth/; a team's: X.robot<k>.rawlog, ...")
       ->required()
       ->type_name("X.rawlog");
   command->add_flag("-q,--quiet", options->quiet, "Errors only");
@@ -182,7 +163,7 @@ void addImport(CLI::App& app, int& status)
       ->capture_default_str()
       ->type_name("T");
   CLI::App* mrclam = command->add_option_group("mrclam", "Options of mrclam");
-  addMrclamOptions(*mrclam, *options);
+  options->mrclam.addTo(*mrclam);
   command->callback(
       [options, csv, mrclam, &status]
       {

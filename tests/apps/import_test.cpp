@@ -31,10 +31,11 @@ class Written : public core::Source
   importers::Import& import_;
 };
 
-/// That what the program wrote to a.rawlog and a.truth reads as the import in memory.
-int expectSame(importers::Import& import, const TemporaryFolder& folder)
+/// That what the program wrote to <name>.rawlog and <name>.truth reads as the import in memory.
+int expectSame(importers::Import& import, const TemporaryFolder& folder,
+               const std::string& name = "a")
 {
-  mrpt::RawlogSource source(folder.file("a.rawlog"), {});
+  mrpt::RawlogSource source(folder.file(name + ".rawlog"), {});
   EXPECT_NEAR(*source.starts().time, *import.starts().time, test::kTick);
   EXPECT_EQ(source.starts().robot.has_value(), import.starts().robot.has_value());
   if (import.starts().robot) expectNear(*source.starts().robot, *import.starts().robot);
@@ -43,7 +44,7 @@ int expectSame(importers::Import& import, const TemporaryFolder& folder)
     expectNear(source.starts().targets.at(id), start);
   Written written(import);
   const int steps = expectNear(written, source);
-  expectNear(results::loadTruth(folder.file("a.truth")), import.truth());
+  expectNear(results::loadTruth(folder.file(name + ".truth")), import.truth());
   return steps;
 }
 
@@ -121,6 +122,41 @@ TEST(ImportCommand, MrclamReadsBackAsItWas)
   EXPECT_GT(expectSame(*importers::openMrclam(folder.file(""), options), folder), 20);
 }
 
+TEST(ImportCommand, MrclamTeamReadsBackAsItWas)
+{
+  const TemporaryFolder folder;
+  test::writeMrclamTeam(folder);
+  const auto outcome = test::slamot(
+      "import mrclam . --team --target 2 --no-target-ids --hide-landmarks 4,5 -o out/a.rawlog",
+      folder.file(""));
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("out/a.robot5.rawlog: "), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("2 hidden landmarks), "), std::string::npos) << outcome.text;
+  for (const int robot : {1, 3, 4, 5})
+  {
+    const std::string name = "out/a.robot" + std::to_string(robot);
+    importers::MrclamOptions options;
+    options.robot = robot;
+    options.target = 2;
+    options.targetIds = false;
+    options.hideLandmarks = robot >= 4;
+    EXPECT_GT(expectSame(*importers::openMrclam(folder.file(""), options), folder, name), 20);
+  }
+  const auto entries = std::filesystem::directory_iterator(folder.file("out"));
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 8) << "four logs, each with its truth";
+}
+
+TEST(ImportCommand, AMrclamTeamIsWholeOrNotThere)
+{
+  const TemporaryFolder folder;
+  test::writeMrclamTeam(folder);
+  folder.write("Robot5_Odometry.dat", "1 nan 0\n");
+  const auto outcome =
+      test::slamot("import mrclam . --team --target 2 -o out/a.rawlog", folder.file(""));
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.file("out"))) << outcome.text;
+}
+
 TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
 {
   const TemporaryFolder folder;
@@ -151,6 +187,20 @@ TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
          "command line: --start-time is an option of csv; remove it");
   expect("mrclam drive -o a.rawlog", 1,
          "command line: mrclam needs a robot; add --robot N, 1 to 5");
+  const std::string team = "mrclam drive -o a.rawlog --team";
+  expect(team, 1, "command line: --team needs a target; add --target N, 1 to 5");
+  expect(team + " --target 6", 1,
+         "command line: --target: Value 6 not in range 1 to 5; see slamot --help");
+  expect(team + " --target 2 --robot 1", 1,
+         "command line: --robot is one robot and --team are all; remove one");
+  expect(team + " --target 2 --start origin", 1,
+         "command line: --start origin leaves a team without a common frame; remove it");
+  expect(team + " --target 2 --hide-landmarks 1,2", 1,
+         "command line: --hide-landmarks names the target, which has no log; name other robots");
+  expect("mrclam drive -o a.rawlog --target 2", 1,
+         "command line: --target is for a team; add --team");
+  expect("csv drive -o a.rawlog --team", 1,
+         "command line: --team is an option of mrclam; remove it");
   expect("csv drive -o a.log", 1, "--output a.log: is not named as a rawlog; end it in .rawlog");
 }
 

@@ -32,4 +32,23 @@ inline void writeMrclam(const TemporaryFolder& folder)
   folder.write("Robot1_Groundtruth.dat", path);
   folder.write("Robot2_Groundtruth.dat", "1000.1 0 0 0\n1000.4 3 0 0\n");
 }
+
+/// The same for five robots that drive and see alike, the first thing robot 3, and none sees
+/// itself.
+inline void writeMrclamTeam(const TemporaryFolder& folder)
+{
+  writeMrclam(folder);
+  folder.write("Barcodes.dat", "1 5\n2 14\n3 41\n4 23\n5 18\n6 63\n7 81\n");
+  const std::string odometry = folder.read("Robot1_Odometry.dat"),
+                    seen = folder.read("Robot1_Measurement.dat"),
+                    truth = folder.read("Robot1_Groundtruth.dat");
+  for (int robot = 1; robot <= 5; ++robot)
+  {
+    const std::string name = "Robot" + std::to_string(robot);
+    folder.write(name + "_Odometry.dat", odometry);
+    folder.write(name + "_Measurement.dat",
+                 "1000.1 41 1.5 0.3\n" + seen.substr(seen.find("1000.250")));
+    folder.write(name + "_Groundtruth.dat", truth);
+  }
+}
 }  // namespace slamot::test

@@ -136,5 +136,31 @@ TEST(MrclamReal, EverythingMeasuredIsDeliveredOrCounted)
     EXPECT_EQ(outOfView(d), 0u);
   }
 }
+
+TEST(MrclamReal, ATeamSeesItsTargetAndItsMates)
+{
+  if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << kFolder << " is not there";
+  std::size_t targets = 0;
+  for (const int robot : mrclamTeam(5))
+  {
+    MrclamOptions options;
+    options.robot = robot;
+    options.target = 5;
+    options.targetIds = false;
+    const auto import = openMrclam(kFolder, options);
+    std::size_t blobs = 0;
+    for (const core::Step& step : stepsOf(*import))
+      for (const core::Blob& b : step.blobs ? step.blobs->blobs : std::vector<core::Blob>())
+      {
+        ++blobs;
+        targets += b.label == "target";
+        EXPECT_EQ(b.id, b.label == "target" ? 5 : core::kNoId);
+      }
+    EXPECT_EQ(blobs, drive(robot).counts.blobs);
+    EXPECT_EQ(import->truth().targets.size(), 1u);
+    EXPECT_EQ(import->starts().robotPose().mean, drive(robot).starts.robotPose().mean);
+  }
+  EXPECT_GT(targets, 200u);
+}
 }  // namespace
 }  // namespace slamot::importers

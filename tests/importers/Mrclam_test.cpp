@@ -145,6 +145,60 @@ TEST(Mrclam, TruthHasTheStepsTimesButNoneInGaps)
   EXPECT_FALSE(truth.targets.count(1));
 }
 
+/// The labels and identities of all blobs, in order.
+std::vector<std::string> blobsOf(const std::vector<core::Step>& steps)
+{
+  std::vector<std::string> out;
+  for (const core::Step& step : steps)
+    if (step.blobs)
+      for (const core::Blob& b : step.blobs->blobs)
+        out.push_back(b.label + " " + std::to_string(b.id));
+  return out;
+}
+
+TEST(Mrclam, ATeamsTargetIsToldFromTeamMates)
+{
+  const TemporaryFolder folder;
+  writeMrclamTeam(folder);
+  for (const bool ids : {true, false})
+  {
+    MrclamOptions options = robot(1);
+    options.target = 2;
+    options.targetIds = ids;
+    const auto import = openMrclam(folder.file(""), options);
+    EXPECT_EQ(blobsOf(stepsOf(*import)),
+              (std::vector<std::string>{ids ? "robot 3" : "robot -1", "target 2"}));
+    EXPECT_EQ(import->truth().targets.size(), 1u) << "mates are none";
+    EXPECT_EQ(import->truth().targets.count(2), 1u);
+    EXPECT_FALSE(import->truth().robot.empty());
+  }
+  EXPECT_EQ(mrclamTeam(2), (std::vector<int>{1, 3, 4, 5}));
+}
+
+TEST(Mrclam, HiddenLandmarksLeaveAllElse)
+{
+  const TemporaryFolder folder;
+  writeMrclamTeam(folder);
+  MrclamOptions options = robot(1);
+  const auto plain = openMrclam(folder.file(""), options);
+  options.hideLandmarks = true;
+  const auto hidden = openMrclam(folder.file(""), options);
+  const auto a = stepsOf(*plain), b = stepsOf(*hidden);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    EXPECT_EQ(a[i].time, b[i].time);
+    EXPECT_EQ(a[i].odometry->mean, b[i].odometry->mean);
+    EXPECT_FALSE(b[i].landmarks);
+    EXPECT_EQ(a[i].blobs.has_value(), b[i].blobs.has_value());
+  }
+  EXPECT_EQ(blobsOf(a), blobsOf(b));
+  EXPECT_GT(plain->counts().sightings, 0u);
+  EXPECT_EQ(hidden->counts().hidden, plain->counts().sightings);
+  EXPECT_EQ(hidden->counts().sightings, 0u);
+  EXPECT_TRUE(hidden->truth().associations.empty());
+}
+
 TEST(Mrclam, DelayShiftsOdometry)
 {
   const TemporaryFolder folder;
@@ -185,6 +239,11 @@ TEST(Mrclam, FaultsAreNamed)
               [&] { openMrclam(folder.file(""), robot(2)); });
   expectError(ExitStatus::kConfig, {"robots 1 to 5"},
               [&] { openMrclam(folder.file(""), robot(6)); });
+  MrclamOptions own = robot(1);
+  own.target = 1;
+  expectError(ExitStatus::kConfig, {"--target", "is the robot itself"},
+              [&] { openMrclam(folder.file(""), own); });
+  expectError(ExitStatus::kConfig, {"--target", "robots 1 to 5"}, [&] { mrclamTeam(0); });
 }
 }  // namespace
 }  // namespace slamot::importers

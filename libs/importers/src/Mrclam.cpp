@@ -27,7 +27,7 @@ class Mrclam : public Import
     for (const Measurement& m : measurements) images_[m.time].push_back(m);
     truth_.landmarks = mrclam::readTrueLandmarks(folder);
     for (int robot = 1; robot <= mrclam::kRobots; ++robot)
-      paths_[robot] = mrclam::readTruePath(folder, robot);
+      if (!isMate(robot)) paths_[robot] = mrclam::readTruePath(folder, robot);
     begin(folder);
   }
 
@@ -92,9 +92,15 @@ class Mrclam : public Import
     return part > time_ && part < end ? part : end;
   }
 
+  /// Of a team's robot: neither itself nor the target.
+  [[nodiscard]] bool isMate(int robot) const
+  {
+    return options_.target && robot != options_.target && robot != options_.robot;
+  }
+
   void addImage(core::Step& step)
   {
-    step.landmarks.emplace().fov = fov_;
+    if (!options_.hideLandmarks) step.landmarks.emplace().fov = fov_;
     step.blobs.emplace().fov = fov_;
     for (const Measurement& m : images_.begin()->second)
     {
@@ -114,8 +120,15 @@ class Mrclam : public Import
     const double rangeStd = std::hypot(options_.rangeStd, options_.rangeScaleStd * m.range);
     if (subject <= mrclam::kRobots)
     {
-      step.blobs->blobs.push_back({"robot", m.range, m.bearing, rangeStd, options_.bearingStd,
-                                   options_.targetIds ? subject : core::kNoId});
+      const bool target = subject == options_.target;
+      step.blobs->blobs.push_back({target ? "target" : "robot", m.range, m.bearing, rangeStd,
+                                   options_.bearingStd,
+                                   target || options_.targetIds ? subject : core::kNoId});
+      return;
+    }
+    if (!step.landmarks)
+    {
+      ++counts_.hidden;
       return;
     }
     auto& list = step.landmarks->sightings;
@@ -149,13 +162,31 @@ class Mrclam : public Import
   eval::Truth truth_;
   double time_ = 0;
 };
+
+void checkRobot(int robot, const std::string& option)
+{
+  if (robot < 1 || robot > mrclam::kRobots)
+    throw core::Error(core::ExitStatus::kConfig, option, "MRCLAM has robots 1 to 5",
+                      "give " + option + " with one of them");
+}
 }  // namespace
+
+std::vector<int> mrclamTeam(int target)
+{
+  checkRobot(target, "--target");
+  std::vector<int> out;
+  for (int robot = 1; robot <= mrclam::kRobots; ++robot)
+    if (robot != target) out.push_back(robot);
+  return out;
+}
 
 std::unique_ptr<Import> openMrclam(const std::string& folder, const MrclamOptions& options)
 {
-  if (options.robot < 1 || options.robot > mrclam::kRobots)
-    throw core::Error(core::ExitStatus::kConfig, "--robot", "MRCLAM has robots 1 to 5",
-                      "give --robot with one of them");
+  checkRobot(options.robot, "--robot");
+  if (options.target) checkRobot(*options.target, "--target");
+  if (options.target == options.robot)
+    throw core::Error(core::ExitStatus::kConfig, "--target", "is the robot itself",
+                      "give another one");
   if (std::hypot(options.rangeStd, options.rangeScaleStd) <= 0 || options.bearingStd <= 0)
     throw core::Error(core::ExitStatus::kConfig, "--std-range, --std-bearing", "no sensor is exact",
                       "give a deviation above zero");

@@ -2,6 +2,7 @@
 
 #include <slamot/core/Step.h>
 #include <slamot/eval/Truth.h>
+#include <slamot/importers/Mrclam.h>
 
 #include <map>
 #include <string>
@@ -10,7 +11,7 @@
 /// An MRCLAM dataset's tables, as one robot needs them.
 namespace slamot::importers::mrclam
 {
-inline constexpr int kRobots = 5;  ///< subjects 1 to 5; those above are landmarks
+inline constexpr int kRobots = kMrclamRobots;  ///< subjects above are landmarks
 
 struct Velocity
 {

@@ -13,6 +13,7 @@ struct Counts
   std::size_t outOfView = 0;  ///< dropped: range at or below zero, or out of the field of view
   std::size_t outOfTime = 0;  ///< dropped: where no odometry tells how the robot moved
   std::size_t unknown = 0;    ///< dropped: of a thing that the data's own tables don't hold
+  std::size_t hidden = 0;     ///< dropped: as asked for
   double start = 0, end = 0;  ///< [s]
 };
 
