@@ -1,0 +1,59 @@
+#pragma once
+
+#include <slamot/math/gaussian.h>
+
+#include <Eigen/LU>
+
+namespace slamot::models
+{
+/// A target's state vector with its covariance; the first two coordinates are its place (x, y) [m].
+template <int N>
+struct TargetState
+{
+  static constexpr int kSize = N;
+
+  Eigen::Matrix<double, N, 1> x = Eigen::Matrix<double, N, 1>::Zero();
+  Eigen::Matrix<double, N, N> P = Eigen::Matrix<double, N, N>::Zero();
+
+  [[nodiscard]] Point2D point() const { return {x[0], x[1]}; }
+  [[nodiscard]] Matrix2 pointCov() const { return P.template topLeftCorner<2, 2>(); }
+
+  /// Kalman update by an innovation nu with covariance S, H its derivative by the place (Mx2).
+  template <int M>
+  void correct(const Eigen::Matrix<double, M, 1>& nu, const Eigen::Matrix<double, M, M>& S,
+               const Eigen::Matrix<double, M, 2>& H)
+  {
+    const Eigen::Matrix<double, N, M> PHt = P.template leftCols<2>() * H.transpose();
+    const Eigen::Matrix<double, N, M> K = PHt * S.inverse();
+    x += K * nu;
+    P -= K * PHt.transpose();
+    P = (0.5 * (P + P.transpose())).eval();
+  }
+};
+
+/// How a target's errors go on over a step: P becomes F P Fᵀ + Q.
+template <int N>
+struct TargetTransition
+{
+  Eigen::Matrix<double, N, N> F = Eigen::Matrix<double, N, N>::Identity();
+  Eigen::Matrix<double, N, N> Q = Eigen::Matrix<double, N, N>::Zero();
+
+  void applyTo(Eigen::Matrix<double, N, N>& P) const
+  {
+    P = (F * P * F.transpose() + Q).eval();
+    P = (0.5 * (P + P.transpose())).eval();
+  }
+};
+
+/// Place, velocity and, with K = 6, acceleration of a target in map axes, x before y.
+template <int K, int N>
+struct Kinematics
+{
+  Eigen::Matrix<double, K, 1> value;
+  Eigen::Matrix<double, K, N> jacobian;  ///< by the target's state
+};
+
+// Every model of a target's motion has: State; start(), birth(); move(State&, dt), which moves the
+// mean and returns the transition; predict(State&, dt), move() with the covariance;
+// afterCorrection(); pose(), velocity(), kinematics(), kinematicTransition(), widen().
+}  // namespace slamot::models
