@@ -1,4 +1,4 @@
-#include "rbpf/Matching.h"
+#include "sighting/Matching.h"
 
 #include <gtest/gtest.h>
 #include <slamot/math/random.h>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 namespace
 {
@@ -117,4 +117,4 @@ TEST(MatchGreedily, GivesALoserItsNextBest)
   matchGreedily(candidates, matches);
   EXPECT_EQ(matches, (Matches{7, 8}));
 }
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

@@ -1,9 +1,9 @@
-#include "rbpf/Moments.h"
+#include "sighting/Moments.h"
 
 #include <gtest/gtest.h>
 #include <slamot/math/random.h>
 
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 namespace
 {
@@ -85,4 +85,4 @@ TEST(PoseMoments, OfOneHeavyParticleAreNeverNegative)
       EXPECT_GE(g.cov.diagonal().minCoeff(), 0);
     }
 }
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

@@ -1,5 +1,5 @@
 #include "LinearSighting.h"
-#include "rbpf/Sighting.h"
+#include "sighting/Sighting.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <Eigen/LU>
 
 // What near sightings are taken in a frame along their ray for, and that it fits where it begins.
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 namespace
 {
@@ -189,4 +189,4 @@ TEST(NearSighting, FitsPolarCoordinatesWhereItBegins)
       EXPECT_LE(std::abs(near.turnB - far.turnB), stretch + scale * turn * turn / 2 + rounding);
     }
 }
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

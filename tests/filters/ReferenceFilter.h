@@ -1,7 +1,7 @@
 #pragma once
 
 #include "LinearSighting.h"
-#include "rbpf/Matching.h"
+#include "sighting/Matching.h"
 
 #include <slamot/core/Step.h>
 #include <slamot/models/RangeBearing.h>
@@ -93,7 +93,7 @@ class ReferenceFilter
 
  private:
   using RangeBearing = models::RangeBearing;
-  static constexpr std::int32_t kNew = filters::rbpf::kNew, kRejected = filters::rbpf::kRejected;
+  static constexpr std::int32_t kNew = filters::kNew, kRejected = filters::kRejected;
 
   /// One sighting of one landmark from a pose.
   static LinearSighting seen(const Pose2D& pose, const Mark& m, const core::Sighting& s)
@@ -103,7 +103,7 @@ class ReferenceFilter
 
   void match(Particle& p, const core::LandmarkScan& scan) const
   {
-    std::vector<filters::rbpf::Candidate> candidates;
+    std::vector<filters::Candidate> candidates;
     p.matches.assign(scan.sightings.size(), kNew);
     for (std::size_t j = 0; j < scan.sightings.size(); ++j)
       for (std::size_t k = 0; k < p.map.size(); ++k)
@@ -119,7 +119,7 @@ class ReferenceFilter
           candidates.push_back({d2 + std::log(S.determinant()), static_cast<std::int32_t>(j),
                                 static_cast<std::int32_t>(k), d2 <= settings_.inner});
       }
-    if (!settings_.knownIds) filters::rbpf::matchGreedily(candidates, p.matches);
+    if (!settings_.knownIds) filters::matchGreedily(candidates, p.matches);
   }
 
   /// All paired sightings as one vector: its density, and what it tells of the pose.

@@ -155,7 +155,7 @@ class SideBySide
     EXPECT_LE((robot.cov - mean.cov).norm(), 1e-9);
     for (const auto& p : particles)
       for (const std::int32_t m : p.matches)
-        ++(m >= 0 ? known : m == rbpf::kNew ? fresh : rejected);
+        ++(m >= 0 ? known : m == filters::kNew ? fresh : rejected);
     std::size_t best = 0;
     for (std::size_t i = 0; i < particles.size(); ++i)
       if (particles[i].logWeight > particles[best].logWeight) best = i;
@@ -199,9 +199,9 @@ class SideBySide
     std::vector<Outcome> outcomes, expected;
     for (const core::Pairing& pair : update_.pairings) outcomes.push_back(pair.outcome);
     for (const std::int32_t m : p.matches)
-      expected.push_back(m >= 0            ? Outcome::kKnown
-                         : m == rbpf::kNew ? Outcome::kNew
-                                           : Outcome::kRejected);
+      expected.push_back(m >= 0               ? Outcome::kKnown
+                         : m == filters::kNew ? Outcome::kNew
+                                              : Outcome::kRejected);
     EXPECT_EQ(outcomes, expected);
     auto marks = p.map;
     ASSERT_EQ(update_.estimate.landmarks->size(), marks.size());

@@ -1,4 +1,4 @@
-#include "rbpf/Sighting.h"
+#include "sighting/Sighting.h"
 
 #include "LinearSighting.h"
 
@@ -10,7 +10,7 @@
 #include <Eigen/LU>
 
 // The inner loop is written out by hand; RangeBearing and Eigen are the readable form.
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 namespace
 {
@@ -380,4 +380,4 @@ TEST(LogProduct, IsTheSumOfLogsBeyondTheRangeOfDoubles)
     ASSERT_NEAR(product.log(), sum, 1e-12 * std::max(1.0, std::abs(sum)) + 1e-10);
   }
 }
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

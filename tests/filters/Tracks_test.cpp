@@ -1,8 +1,8 @@
-#include "rbpf/Tracks.h"
+#include "sighting/Tracks.h"
 
 #include <gtest/gtest.h>
 
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 namespace
 {
@@ -108,4 +108,4 @@ TEST(Tracks, AreLostWhenTheirIdentityIsSeenElsewhereThriceInARow)
   t.reject(blob("target", 1));
   EXPECT_TRUE(t.isLost(0, 1, 0.1));
 }
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

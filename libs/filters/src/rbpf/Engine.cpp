@@ -480,4 +480,6 @@ std::vector<core::WeightedPose> EngineOf<Motion>::particles() const
 
 template class EngineOf<models::DifferentialDriveTarget>;
 template class EngineOf<models::DampedVelocityTarget>;
+template class EngineOf<models::ConstantVelocityTarget>;
+template class EngineOf<models::ConstantAccelerationTarget>;
 }  // namespace slamot::filters::rbpf

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Sighting.h"
+#include "sighting/Sighting.h"
 
 #include <Eigen/Cholesky>
 

@@ -1,27 +1,7 @@
 #include "Settings.h"
 
-#include <slamot/math/statistics.h>
-
-#include <algorithm>
-
 namespace slamot::filters::rbpf
 {
-Gates Gates::from(core::Params& p)
-{
-  const double inner = p.probability("gate_probability", 0.99);
-  const double outer = p.probability("new_gate_probability", 0.99999);
-  if (outer < inner)
-    p.fail("new_gate_probability", "is below gate_probability", "make it the larger");
-  return {math::chiSquareQuantile(inner, 2), math::chiSquareQuantile(outer, 2),
-          math::chiSquareQuantile(inner, 1), math::chiSquareQuantile(outer, 1)};
-}
-
-TargetSettings TargetSettings::from(core::Params& p)
-{
-  return {Gates::from(p), TrackRules::from(p), p.nonNegative("target_range_std_m", 0.0),
-          p.nonNegative("target_bearing_std_deg", 0.0)};
-}
-
 Settings Settings::from(core::Params& p)
 {
   using PF = ::mrpt::bayes::CParticleFilter;
@@ -31,9 +11,7 @@ Settings Settings::from(core::Params& p)
   s.informed = p.choice("proposal", {"motion", "informed"}) == "informed";
   s.knownIds = p.choice("association", {"known", "nn"}) == "known";
   s.newDensity = p.nonNegative("new_density_per_m_rad", 0.0);
-  s.rangeStd = p.nonNegative("range_std_m", 0.0);
-  s.bearingStd = p.nonNegative("bearing_std_deg", 0.0);
-  s.correlationTime = p.nonNegative("sighting_correlation_s", 0.0);
+  static_cast<LandmarkNoise&>(s) = LandmarkNoise::from(p);
   if (!s.knownIds)
     s.tracking = {p.nonNegative("follow_range_std_m", 0.0),
                   p.nonNegative("follow_bearing_std_deg", 0.0)};
@@ -55,22 +33,4 @@ Settings Settings::from(core::Params& p)
   return s;
 }
 
-double Settings::noiseAfter(double pause) const
-{
-  constexpr double kMost = 1000;
-  return std::clamp(correlationTime / std::max(pause, 1e-9), 1.0, kMost);
-}
-
-Ray Settings::ray(const core::Sighting& s) const
-{
-  return Ray::of(s.range, s.bearing, rangeStd > 0 ? rangeStd : s.rangeStd,
-                 bearingStd > 0 ? bearingStd : s.bearingStd);
-}
-
-Ray TargetSettings::ray(const core::Blob& b) const
-{
-  const double bStd = targetBearingStd > 0 ? targetBearingStd : b.bearingStd;
-  if (!b.range) return Ray::ofBearing(b.bearing, bStd);
-  return Ray::of(*b.range, b.bearing, targetRangeStd > 0 ? targetRangeStd : b.rangeStd, bStd);
-}
 }  // namespace slamot::filters::rbpf

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "Matching.h"
-#include "Sighting.h"
+#include "sighting/Matching.h"
+#include "sighting/Sighting.h"
 
 #include <slamot/math/gaussian.h>
 

@@ -2,7 +2,7 @@
 
 #include <slamot/math/gaussian.h>
 
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 /// Mean and covariance of weighted Gaussians over poses, one by one (West 1979): every term added
 /// to the covariance is positive, so that one heavy particle among light ones leaves no rounding
@@ -31,4 +31,4 @@ class PoseMoments
   Pose2D mean_;
   Matrix3 second_ = Matrix3::Zero();
 };
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

@@ -11,7 +11,7 @@
 #include <algorithm>
 
 // What one pose (a particle's, or a filter's mean with covariance) makes of a scan's blobs.
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 /// Chi-square bounds for two degrees of freedom: within `inner` a pair may be true; a sighting
 /// between the two of anything is neither known nor new.
@@ -50,11 +50,12 @@ inline bool mayStart(const BlobRays& scan, std::size_t k)
   return (*scan.blobs)[k].id == core::kNoId || std::none_of(begin, end, same);
 }
 
-/// Gives each blob a track's index, kNew or kRejected.
-template <class State>
-void matchBlobs(const Eye& eye, const BlobRays& scan, const std::vector<Track>& tracks,
-                const std::vector<State>& targets, const Gates& gates, const Matrix3* poseCov,
-                std::vector<Candidate>& candidates, std::vector<std::int32_t>& matches)
+/// Gives each blob a track's index, kNew or kRejected.  innovate(k, t, o) sets the innovation of
+/// blob k if it is of track t, or returns false.
+template <class Innovate>
+void matchBlobs(const BlobRays& scan, const std::vector<Track>& tracks, const Gates& gates,
+                const Innovate& innovate, std::vector<Candidate>& candidates,
+                std::vector<std::int32_t>& matches)
 {
   candidates.clear();
   matches.assign(scan.rays.size(), kNew);
@@ -65,8 +66,7 @@ void matchBlobs(const Eye& eye, const BlobRays& scan, const std::vector<Track>& 
     for (std::size_t t = 0; t < tracks.size(); ++t)
     {
       Innovation o;
-      if (!Tracks::fits(tracks[t], blob) || !innovateTarget(eye, ray, targets[t], o, poseCov))
-        continue;
+      if (!Tracks::fits(tracks[t], blob) || !innovate(k, t, o)) continue;
       const bool identified = blob.id != core::kNoId;
       const double inner = ray.hasRange ? gates.inner : gates.inner1;
       const double outer = ray.hasRange ? gates.outer : gates.outer1;
@@ -83,6 +83,20 @@ void matchBlobs(const Eye& eye, const BlobRays& scan, const std::vector<Track>& 
     if (matches[k] == kNew && !mayStart(scan, k)) matches[k] = kRejected;
 }
 
+/// The same for targets with covariances of their own, seen from a pose whose covariance, if given,
+/// is independent of theirs.
+template <class State>
+void matchBlobs(const Eye& eye, const BlobRays& scan, const std::vector<Track>& tracks,
+                const std::vector<State>& targets, const Gates& gates, const Matrix3* poseCov,
+                std::vector<Candidate>& candidates, std::vector<std::int32_t>& matches)
+{
+  matchBlobs(
+      scan, tracks, gates,
+      [&](std::size_t k, std::size_t t, Innovation& o)
+      { return innovateTarget(eye, scan.rays[k], targets[t], o, poseCov); },
+      candidates, matches);
+}
+
 /// Takes a blob into a target, seen from a known pose.
 template <class Motion>
 void correctTarget(const Motion& motion, typename Motion::State& t, const Eye& eye, const Ray& ray,
@@ -95,9 +109,8 @@ void correctTarget(const Motion& motion, typename Motion::State& t, const Eye& e
   H << o.h11, o.h12, o.h21, o.h22;
   const Vector2 nu(o.nuR, o.nuB);
   t.template correct<2>(nu, S, H);
-  if (!ray.hasRange) return motion.afterCorrection(t, nullptr);
   const Gaussian<Point2D> seenAt = invert(eye, ray);
-  motion.afterCorrection(t, &seenAt);
+  motion.afterCorrection(t, ray.hasRange ? &seenAt : nullptr);
 }
 
 /// log of the density of an innovation of (range, bearing), or of the bearing alone.
@@ -143,4 +156,4 @@ class TargetMoments
   Vector2 velocity_ = Vector2::Zero();
   Matrix2 velocitySecond_ = Matrix2::Zero();
 };
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 TrackRules TrackRules::from(core::Params& p)
 {
@@ -72,4 +72,4 @@ bool Tracks::isLost(std::size_t index, double time, double std) const
   if (!track.confirmed) return unseen > rules_.tentativeTime;
   return unseen > rules_.lostTime || !(std <= rules_.lostStd);
 }
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 inline constexpr std::int32_t kNew = -1;       ///< started a landmark or target
 inline constexpr std::int32_t kRejected = -2;  ///< neither known nor new
@@ -21,4 +21,4 @@ struct Candidate
 /// candidate speaks against it, or kRejected.  Ties go to the lower sighting, then thing.
 /// `candidates` is left sorted.
 void matchGreedily(std::vector<Candidate>& candidates, std::vector<std::int32_t>& matches);
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 void matchGreedily(std::vector<Candidate>& candidates, std::vector<std::int32_t>& matches)
 {
@@ -29,4 +29,4 @@ void matchGreedily(std::vector<Candidate>& candidates, std::vector<std::int32_t>
     if (!taken) match = c.thing;
   }
 }
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

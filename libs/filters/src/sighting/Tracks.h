@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 /// When targets start, are believed, and are lost.
 struct TrackRules
@@ -61,4 +61,4 @@ class Tracks
   std::vector<int> usedIds_;  // identities seen, so that numbers keep clear of them
   int nextNumber_ = 0;
 };
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters

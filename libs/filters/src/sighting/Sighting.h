@@ -9,7 +9,7 @@
 // The inner loop of the particle filter: one pose, one sighting, one point with covariance. Written
 // out by hand, since here every nanosecond counts N particles times; tests hold it together with
 // RangeBearing and with the same by matrices.
-namespace slamot::filters::rbpf
+namespace slamot::filters
 {
 /// A sighting, prepared once for all particles.
 struct Ray
@@ -201,4 +201,4 @@ class LogProduct
   double mantissa_ = 1;
   long exponent_ = 0;
 };
-}  // namespace slamot::filters::rbpf
+}  // namespace slamot::filters
