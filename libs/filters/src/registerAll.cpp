@@ -1,5 +1,6 @@
 #include <slamot/filters/Baselines.h>
 #include <slamot/filters/DeadReckoning.h>
+#include <slamot/filters/EkfSlamot.h>
 #include <slamot/filters/RbpfSlamot.h>
 #include <slamot/filters/registerAll.h>
 
@@ -21,6 +22,7 @@ void registerAll()
   {
     add<DeadReckoning>("dead-reckoning");
     add<RbpfSlamot>("rbpf-slamot");
+    add<EkfSlamot>("ekf-slamot");
     add<Independent>("independent");
     add<OdometryTarget>("odometry");
     add<TruePoseTarget>("true-pose-target");

@@ -1,0 +1,324 @@
+#include "Engine.h"
+
+#include "relate.h"
+
+#include <slamot/core/checkStep.h>
+
+#include <limits>
+
+namespace slamot::filters::ekf
+{
+using Kind = core::Pairing::Outcome;
+
+template <class Motion>
+EngineOf<Motion>::EngineOf(const Settings& settings, const Motion& motion,
+                           const std::vector<core::FilterContext>& contexts, const Mates& mates)
+    : settings_(settings),
+      motion_(motion),
+      mates_(mates),
+      belief_(static_cast<int>(contexts.size()), kSize),
+      map_(settings_, belief_),
+      tracks_(settings.tracks),
+      time_(-std::numeric_limits<double>::infinity())
+{
+  for (std::size_t r = 0; r < contexts.size(); ++r)
+  {
+    const core::Starts& starts = contexts[r].starts;
+    const Gaussian<Pose2D> pose = starts.robotPose();
+    belief_.set(belief_.robot(static_cast<int>(r)),
+                Vector3(pose.mean.x, pose.mean.y, pose.mean.phi), pose.cov);
+    times_.push_back(starts.time.value_or(time_));
+    time_ = std::max(time_, times_.back());
+    for (const auto& [id, start] : starts.targets)
+      if (!targetWith(id)) startTarget(id, start, starts.time.value_or(0));
+  }
+}
+
+template <class Motion>
+void EngineOf<Motion>::startTarget(int id, const core::ObjectStart& start, double time)
+{
+  if (!start.value[core::ObjectStart::kX] || !start.value[core::ObjectStart::kY]) return;
+  tracks_.addStart(id, time);
+  addTarget(motion_.start(start));
+}
+
+template <class Motion>
+void EngineOf<Motion>::addTarget(const State& state)
+{
+  const int slot = belief_.addTarget();
+  belief_.set(belief_.target(slot), state.x, state.P);
+  targets_.push_back({slot, state});
+}
+
+template <class Motion>
+typename EngineOf<Motion>::State EngineOf<Motion>::stateOf(const Target& target) const
+{
+  State out = target.state;
+  const int j = belief_.target(target.slot);
+  out.x = belief_.x().template segment<kSize>(j);
+  out.P = belief_.P().template block<kSize, kSize>(j, j);
+  return out;
+}
+
+template <class Motion>
+const typename EngineOf<Motion>::Target* EngineOf<Motion>::targetWith(int id) const
+{
+  for (std::size_t t = 0; t < targets_.size(); ++t)
+  {
+    const Track& track = tracks_.list()[t];
+    if (track.confirmed && track.identified && track.id == id) return &targets_[t];
+  }
+  return nullptr;
+}
+
+template <class Motion>
+core::Update EngineOf<Motion>::process(int robot, const core::Step& step)
+{
+  double& last = times_[static_cast<std::size_t>(robot)];
+  core::checkStep(step, last);
+  if (step.odometry) moveRobot(belief_.robot(robot), *step.odometry);
+  if (std::isfinite(time_) && step.time > time_) moveTargets(step.time - time_);
+  last = step.time;
+  time_ = std::max(time_, step.time);
+  core::Update out;
+  if (step.landmarks || step.blobs) takeScan(belief_.robot(robot), step, out.pairings);
+  if (step.blobs) dropLost(step.time);
+  out.estimate = estimate(robot);
+  return out;
+}
+
+template <class Motion>
+void EngineOf<Motion>::moveRobot(int robot, const Gaussian<Pose2D>& increment)
+{
+  const auto& x = belief_.x();
+  const Pose2D pose(x[robot], x[robot + 1], x[robot + 2]);
+  const Pose2D next = math::compose(pose, increment.mean);
+  Matrix3 F = Matrix3::Identity();
+  F(0, 2) = pose.y - next.y;
+  F(1, 2) = next.x - pose.x;
+  const Matrix3 R = math::poseRotation(pose.phi);
+  belief_.move(robot, Vector3(next.x, next.y, next.phi), F, R * increment.cov * R.transpose());
+}
+
+template <class Motion>
+void EngineOf<Motion>::moveTargets(double dt)
+{
+  for (Target& t : targets_)
+  {
+    t.state = stateOf(t);
+    const auto transition = motion_.move(t.state, dt);
+    belief_.move(belief_.target(t.slot), t.state.x, transition.F, transition.Q);
+  }
+}
+
+template <class Motion>
+void EngineOf<Motion>::takeScan(int robot, const core::Step& step,
+                                std::vector<core::Pairing>& pairings)
+{
+  rows_.clear();
+  Map::Scan landmarks;
+  BlobScan blobs;
+  if (step.landmarks) landmarks = map_.match(robot, *step.landmarks, step.time, rows_);
+  if (step.blobs) matchTargets(robot, *step.blobs, step.time, blobs);
+  std::vector<core::Pairing> ofMates;
+  if (step.blobs) matchMates(robot, *step.blobs, ofMates);
+  belief_.update(rows_);
+  wrapAngles();
+  if (step.landmarks)
+  {
+    const auto slots = map_.settle(robot, *step.landmarks, landmarks, step.time);
+    for (std::size_t k = 0; k < slots.size(); ++k)
+    {
+      const std::int32_t m = landmarks.matches[k];
+      const Kind kind = m >= 0 ? Kind::kKnown : m == kNew ? Kind::kNew : Kind::kRejected;
+      pairings.push_back(
+          {false, static_cast<int>(k), kind, slots[k] >= 0 ? map_.idOf(slots[k]) : core::kNoId});
+    }
+  }
+  const std::size_t first = pairings.size();
+  if (step.blobs) settleTargets(robot, blobs, step.time, pairings);
+  pairings.insert(pairings.end(), ofMates.begin(), ofMates.end());
+  std::sort(pairings.begin() + static_cast<std::ptrdiff_t>(first), pairings.end(),
+            [](const auto& a, const auto& b) { return a.index < b.index; });
+}
+
+template <class Motion>
+void EngineOf<Motion>::matchTargets(int robot, const core::BlobScan& scan, double time,
+                                    BlobScan& out)
+{
+  for (std::size_t k = 0; k < scan.blobs.size(); ++k)
+  {
+    const core::Blob& blob = scan.blobs[k];
+    if (!mates_.label.empty() && blob.label == mates_.label) continue;
+    out.blobs.push_back(blob);
+    out.index.push_back(static_cast<int>(k));
+    out.rays.rays.push_back(settings_.ray(blob));
+  }
+  out.rays.blobs = &out.blobs;
+  const Eye eye = eyeOf(belief_, robot);
+  const auto noise = [&](std::size_t t)
+  { return settings_.noiseAfter(time - tracks_.list()[t].lastSeen); };
+  const auto innovation = [&](std::size_t k, std::size_t t, Innovation& o)
+  {
+    return relate(belief_, robot, belief_.target(targets_[t].slot), eye, out.rays.rays[k], o,
+                  noise(t));
+  };
+  matchBlobs(out.rays, tracks_.list(), settings_.gates, innovation, candidates_, out.matches);
+  for (std::size_t k = 0; k < out.matches.size(); ++k)
+  {
+    if (out.matches[k] < 0) continue;
+    const auto t = static_cast<std::size_t>(out.matches[k]);
+    Innovation o;
+    if (innovation(k, t, o))
+      rows_.push_back(
+          ekf::rowsOf(robot, belief_.target(targets_[t].slot), o, out.rays.rays[k], noise(t)));
+  }
+}
+
+template <class Motion>
+void EngineOf<Motion>::matchMates(int robot, const core::BlobScan& scan,
+                                  std::vector<core::Pairing>& pairings)
+{
+  if (mates_.label.empty()) return;
+  const Eye eye = eyeOf(belief_, robot);
+  candidates_.clear();
+  std::vector<std::int32_t> matches(scan.blobs.size(), kNew);
+  for (std::size_t k = 0; k < scan.blobs.size(); ++k)
+  {
+    const core::Blob& blob = scan.blobs[k];
+    if (blob.label != mates_.label) continue;
+    const Ray ray = settings_.ray(blob);
+    for (int other = 0; other < belief_.robots(); ++other)
+    {
+      Innovation o;
+      const int id = mates_.ids[static_cast<std::size_t>(other)];
+      const bool isAnother = blob.id != core::kNoId && id != core::kNoId && blob.id != id;
+      if (belief_.robot(other) == robot || isAnother ||
+          !relate(belief_, robot, belief_.robot(other), eye, ray, o))
+        continue;
+      const double gate = ray.hasRange ? settings_.gates.inner : settings_.gates.inner1;
+      candidates_.push_back(
+          {o.d2 + std::log(o.det), static_cast<std::int32_t>(k), other, o.d2 <= gate});
+    }
+  }
+  matchGreedily(candidates_, matches);
+  for (std::size_t k = 0; k < scan.blobs.size(); ++k)
+  {
+    if (scan.blobs[k].label != mates_.label) continue;
+    pairings.push_back({true, static_cast<int>(k), Kind::kRejected, core::kNoId});
+    if (matches[k] < 0) continue;
+    const Ray ray = settings_.ray(scan.blobs[k]);
+    Innovation o;
+    const int other = belief_.robot(matches[k]);
+    if (relate(belief_, robot, other, eye, ray, o))
+      rows_.push_back(ekf::rowsOf(robot, other, o, ray));
+  }
+}
+
+template <class Motion>
+void EngineOf<Motion>::settleTargets(int robot, const BlobScan& scan, double time,
+                                     std::vector<core::Pairing>& pairings)
+{
+  for (std::size_t k = 0; k < scan.matches.size(); ++k)
+  {
+    const Ray& ray = scan.rays.rays[k];
+    core::Pairing pairing{true, scan.index[k], Kind::kRejected, core::kNoId};
+    if (scan.matches[k] >= 0)
+    {
+      const auto t = static_cast<std::size_t>(scan.matches[k]);
+      Target& target = targets_[t];
+      State state = stateOf(target);
+      const Gaussian<Point2D> seenAt = invert(eyeOf(belief_, robot), ray);
+      constexpr int kOther = kSize - 2;  // than the place, which stays as it is
+      if (motion_.afterCorrection(state, ray.hasRange ? &seenAt : nullptr))
+        belief_.set(belief_.target(target.slot) + 2, state.x.template tail<kOther>(),
+                    state.P.template bottomRightCorner<kOther, kOther>());
+      target.state = state;
+      tracks_.hit(t, scan.blobs[k], time);
+      pairing.outcome = Kind::kKnown;
+      pairing.id = tracks_.list()[t].id;
+    }
+    else if (scan.matches[k] == kNew)
+    {
+      tracks_.add(scan.blobs[k], time);
+      birth(robot, ray);
+      pairing.outcome = Kind::kNew;
+      pairing.id = tracks_.list().back().id;
+    }
+    else
+      tracks_.reject(scan.blobs[k]);
+    pairings.push_back(pairing);
+  }
+}
+
+template <class Motion>
+void EngineOf<Motion>::birth(int robot, const Ray& ray)
+{
+  const Eye eye = eyeOf(belief_, robot);
+  const Gaussian<Point2D> place = invert(eye, ray);
+  addTarget(motion_.birth(place));
+  const int j = belief_.target(targets_.back().slot);
+  belief_.correlate(j, robot, placeByRobot(eye, place.mean));
+}
+
+template <class Motion>
+void EngineOf<Motion>::dropLost(double time)
+{
+  for (std::size_t t = targets_.size(); t-- > 0;)
+  {
+    const int j = belief_.target(targets_[t].slot);
+    const double std = std::sqrt(0.5 * (belief_.P()(j, j) + belief_.P()(j + 1, j + 1)));
+    if (!tracks_.isLost(t, time, std)) continue;
+    belief_.removeTarget(targets_[t].slot);
+    tracks_.erase(t);
+    targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+}
+
+template <class Motion>
+void EngineOf<Motion>::wrapAngles()
+{
+  auto& x = belief_.x();
+  for (int r = 0; r < belief_.robots(); ++r)
+    x[belief_.robot(r) + 2] = math::wrapToPi(x[belief_.robot(r) + 2]);
+  if constexpr (Motion::kAngle >= 0)
+    for (const Target& t : targets_)
+    {
+      double& angle = x[belief_.target(t.slot) + Motion::kAngle];
+      angle = math::wrapToPi(angle);
+    }
+}
+
+template <class Motion>
+core::Estimate EngineOf<Motion>::estimate(int robot) const
+{
+  core::Estimate out;
+  out.time = times_[static_cast<std::size_t>(robot)];
+  const int j = belief_.robot(robot);
+  const auto& x = belief_.x();
+  out.robot = {{x[j], x[j + 1], x[j + 2]}, belief_.P().template block<3, 3>(j, j)};
+  for (std::size_t t = 0; t < targets_.size(); ++t)
+  {
+    const Track& track = tracks_.list()[t];
+    if (!track.confirmed) continue;
+    const State state = stateOf(targets_[t]);
+    core::TargetEstimate target;
+    target.id = track.id;
+    target.label = track.label;
+    target.identified = track.identified;
+    target.lastSeen = track.lastSeen;
+    target.pose = Motion::pose(state);
+    target.velocity = Motion::velocity(state, target.velocityCov);
+    out.targets.push_back(target);
+  }
+  std::sort(out.targets.begin(), out.targets.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+  out.landmarks = &map_;
+  return out;
+}
+
+template class EngineOf<models::DifferentialDriveTarget>;
+template class EngineOf<models::DampedVelocityTarget>;
+template class EngineOf<models::ConstantVelocityTarget>;
+template class EngineOf<models::ConstantAccelerationTarget>;
+}  // namespace slamot::filters::ekf

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "Map.h"
+
+#include <slamot/filters/EkfSlamot.h>
+#include <slamot/models/TargetMotion.h>
+
+namespace slamot::filters
+{
+/// The filter without its target model's type, and for any number of robots.
+class EkfSlamot::Engine
+{
+ public:
+  virtual ~Engine() = default;
+  virtual core::Update process(int robot, const core::Step& step) = 0;
+  [[nodiscard]] virtual core::Estimate estimate(int robot) const = 0;
+  [[nodiscard]] virtual core::RobotAndTarget robotAndTarget(int target) const = 0;
+  virtual core::Fusion fuse(const core::Evidence& evidence, const core::FusionOptions& options) = 0;
+  virtual void predictTarget(core::RobotAndTarget& other, double dt) const = 0;
+};
+}  // namespace slamot::filters
+
+namespace slamot::filters::ekf
+{
+/// How robots that share one belief know each other.
+struct Mates
+{
+  std::string label;     ///< of blobs that are robots; empty: there are none
+  std::vector<int> ids;  ///< that sensors tell, by robot; none: those of blobs are not believed
+};
+
+template <class Motion>
+class EngineOf : public EkfSlamot::Engine
+{
+ public:
+  EngineOf(const Settings& settings, const Motion& motion,
+           const std::vector<core::FilterContext>& contexts, const Mates& mates);
+
+  core::Update process(int robot, const core::Step& step) override;
+  [[nodiscard]] core::Estimate estimate(int robot) const override;
+  [[nodiscard]] core::RobotAndTarget robotAndTarget(int target) const override;
+  core::Fusion fuse(const core::Evidence& evidence, const core::FusionOptions& options) override;
+  void predictTarget(core::RobotAndTarget& other, double dt) const override;
+
+ private:
+  using State = typename Motion::State;
+  static constexpr int kSize = State::kSize;
+  struct Target
+  {
+    int slot;
+    State state;  // x and P are the belief's; the rest is the motion model's own
+  };
+  struct BlobScan
+  {
+    std::vector<core::Blob> blobs;  // those that are targets
+    std::vector<int> index;         // their places in the step
+    BlobRays rays;
+    std::vector<std::int32_t> matches;
+  };
+
+  void startTarget(int id, const core::ObjectStart& start, double time);
+  void addTarget(const State& state);
+  [[nodiscard]] State stateOf(const Target& target) const;
+  void moveRobot(int robot, const Gaussian<Pose2D>& increment);
+  void moveTargets(double dt);
+  void takeScan(int robot, const core::Step& step, std::vector<core::Pairing>& pairings);
+  void matchTargets(int robot, const core::BlobScan& scan, double time, BlobScan& out);
+  void matchMates(int robot, const core::BlobScan& scan, std::vector<core::Pairing>& pairings);
+  void settleTargets(int robot, const BlobScan& scan, double time,
+                     std::vector<core::Pairing>& pairings);
+  void birth(int robot, const Ray& ray);
+  void dropLost(double time);
+  void wrapAngles();
+  [[nodiscard]] Belief::Rows rowsOf(const Eigen::MatrixXd& H, const Target* target) const;
+  core::Fusion fuseBlocks(const core::Evidence& evidence, const core::FusionOptions& options,
+                          const Target* target);
+  [[nodiscard]] const Target* targetWith(int id) const;
+
+  Settings settings_;
+  Motion motion_;
+  Mates mates_;
+  Belief belief_;
+  Map map_;
+  Tracks tracks_;
+  std::vector<Target> targets_;  // as tracks_
+  std::vector<double> times_;    // of each robot's last step
+  double time_;                  // of the latest
+  std::vector<SightingRows> rows_;
+  std::vector<Candidate> candidates_;
+};
+}  // namespace slamot::filters::ekf

@@ -1,0 +1,185 @@
+#include "Map.h"
+
+#include "JointCompatibility.h"
+#include "relate.h"
+
+#include <set>
+
+namespace slamot::filters::ekf
+{
+void Map::visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const
+{
+  std::vector<std::pair<int, int>> confirmed;  // id, slot
+  for (std::size_t s = 0; s < entries_.size(); ++s)
+    if (isConfirmed(entries_[s])) confirmed.emplace_back(entries_[s].id, static_cast<int>(s));
+  std::sort(confirmed.begin(), confirmed.end());
+  for (const auto& [id, slot] : confirmed)
+    visitor({id, belief_.place(slot), entries_[static_cast<std::size_t>(slot)].sightings});
+}
+
+std::size_t Map::size() const
+{
+  return static_cast<std::size_t>(std::count_if(entries_.begin(), entries_.end(),
+                                                [&](const Entry& e) { return isConfirmed(e); }));
+}
+
+bool Map::isInReach(int robot, const core::LandmarkScan& scan) const
+{
+  if (!belief_.isFocused()) return false;
+  const auto& x = belief_.x();
+  const double moved = std::hypot(x[robot] - centre_.x, x[robot + 1] - centre_.y);
+  if (moved > 0.5 * settings_.localRadius) return false;
+  if (settings_.association != Association::kKnown)
+    return std::all_of(scan.sightings.begin(), scan.sightings.end(),
+                       [&](const core::Sighting& s) { return moved + s.range < 0.8 * reach_; });
+  return std::all_of(scan.sightings.begin(), scan.sightings.end(),
+                     [&](const core::Sighting& s)
+                     {
+                       const auto it = slotOf_.find(s.id);
+                       return it == slotOf_.end() || belief_.landmark(it->second) >= 0;
+                     });
+}
+
+void Map::keepInReach(int robot, const core::LandmarkScan& scan)
+{
+  if (settings_.localRadius <= 0 || entries_.empty() || isInReach(robot, scan)) return;
+  belief_.spread();
+  const auto& x = belief_.x();
+  centre_ = {x[robot], x[robot + 1]};
+  reach_ = settings_.localRadius;
+  // Without identities, all that a sighting may be of must be local.
+  if (settings_.association != Association::kKnown)
+    for (const core::Sighting& s : scan.sightings) reach_ = std::max(reach_, 2 * s.range);
+  std::set<int> local;
+  for (const core::Sighting& s : scan.sightings)
+    if (const auto it = slotOf_.find(s.id); it != slotOf_.end()) local.insert(it->second);
+  for (int s = 0; s < belief_.landmarks(); ++s)
+  {
+    const int j = belief_.landmark(s);
+    if (entries_[static_cast<std::size_t>(s)].sightings > 0 &&
+        std::hypot(x[j] - centre_.x, x[j + 1] - centre_.y) <= reach_)
+      local.insert(s);
+  }
+  belief_.focus({local.begin(), local.end()});
+}
+
+Map::Scan Map::match(int robot, const core::LandmarkScan& scan, double time,
+                     std::vector<SightingRows>& rows)
+{
+  keepInReach(robot, scan);
+  Scan out;
+  for (const core::Sighting& s : scan.sightings) out.rays.push_back(settings_.ray(s));
+  out.matches.assign(out.rays.size(), kNew);
+  if (settings_.association == Association::kKnown)
+    matchKnown(scan, out.matches);
+  else
+    matchByPlace(robot, time, out);
+  const Eye eye = eyeOf(belief_, robot);
+  for (std::size_t k = 0; k < out.rays.size(); ++k)
+  {
+    if (out.matches[k] < 0) continue;
+    const int slot = out.matches[k], object = belief_.landmark(slot);
+    const double n = noise(entries_[static_cast<std::size_t>(slot)], time);
+    Innovation o;
+    if (relate(belief_, robot, object, eye, out.rays[k], o, n))
+      rows.push_back(rowsOf(robot, object, o, out.rays[k], n));
+    else
+      out.matches[k] = kRejected;
+  }
+  return out;
+}
+
+void Map::matchKnown(const core::LandmarkScan& scan, std::vector<std::int32_t>& matches) const
+{
+  std::set<int> seen;
+  for (std::size_t k = 0; k < matches.size(); ++k)
+  {
+    const int id = scan.sightings[k].id;
+    const auto it = slotOf_.find(id);
+    if (id == core::kNoId || !seen.insert(id).second)
+      matches[k] = kRejected;
+    else if (it != slotOf_.end())
+      matches[k] = it->second;
+  }
+}
+
+void Map::matchByPlace(int robot, double time, Scan& out)
+{
+  const Eye eye = eyeOf(belief_, robot);
+  const auto& x = belief_.x();
+  const auto spread = [&](int j) { return belief_.P()(j, j) + belief_.P()(j + 1, j + 1); };
+  std::vector<Candidate> candidates;
+  std::vector<PossiblePair> pairs;
+  for (std::size_t k = 0; k < out.rays.size(); ++k)
+  {
+    const Ray& ray = out.rays[k];
+    const Point2D at = invert(eye, ray).mean;
+    const double own =
+        ray.varRange + ray.range * ray.range * (ray.varBearing + belief_.P()(robot + 2, robot + 2));
+    for (int s = 0; s < belief_.landmarks(); ++s)
+    {
+      const Entry& entry = entries_[static_cast<std::size_t>(s)];
+      const int j = belief_.landmark(s);
+      if (j < 0 || entry.sightings == 0) continue;
+      const double n = noise(entry, time), dx = x[j] - at.x, dy = x[j + 1] - at.y;
+      // No covariance of a difference exceeds twice the sum of both.
+      const double most = 2 * (spread(j) + spread(robot) + n * own);
+      Innovation o;
+      if (dx * dx + dy * dy > 2 * settings_.gates.outer * most ||
+          !relate(belief_, robot, j, eye, ray, o, n) || o.d2 > settings_.gates.outer)
+        continue;
+      const bool inGate = o.d2 <= settings_.gates.inner;
+      candidates.push_back({o.d2 + std::log(o.det), static_cast<std::int32_t>(k), s, inGate});
+      if (inGate) pairs.push_back({static_cast<int>(k), s, rowsOf(robot, j, o, ray, n), o.d2});
+    }
+  }
+  if (settings_.association == Association::kNearest) return matchGreedily(candidates, out.matches);
+  for (const Candidate& c : candidates)
+    out.matches[static_cast<std::size_t>(c.sighting)] = kRejected;
+  for (const int p : jointlyCompatible(belief_, pairs, settings_.gateProbability))
+  {
+    const PossiblePair& pair = pairs[static_cast<std::size_t>(p)];
+    out.matches[static_cast<std::size_t>(pair.sighting)] = pair.thing;
+  }
+}
+
+std::vector<std::int32_t> Map::settle(int robot, const core::LandmarkScan& scan,
+                                      const Scan& matched, double time)
+{
+  std::vector<std::int32_t> out = matched.matches;
+  for (std::size_t k = 0; k < out.size(); ++k)
+  {
+    if (out[k] >= 0)
+    {
+      Entry& entry = entries_[static_cast<std::size_t>(out[k])];
+      ++entry.sightings;
+      entry.lastSeen = time;
+    }
+    else if (out[k] == kNew)
+      start(robot, matched.rays[k], scan.sightings[k].id, time, out[k]);
+  }
+  for (std::size_t s = 0; s < entries_.size(); ++s)
+  {
+    Entry& e = entries_[s];
+    if (e.sightings == 0 || isConfirmed(e) || time - e.lastSeen <= settings_.tentativeTime ||
+        belief_.landmark(static_cast<int>(s)) < 0)
+      continue;
+    belief_.removeLandmark(static_cast<int>(s));
+    if (settings_.association == Association::kKnown) slotOf_.erase(e.id);
+    e = {};
+  }
+  return out;
+}
+
+void Map::start(int robot, const Ray& ray, int id, double time, std::int32_t& slot)
+{
+  const Eye eye = eyeOf(belief_, robot);
+  const Gaussian<Point2D> place = invert(eye, ray);
+  slot = belief_.addLandmark(robot, place, placeByRobot(eye, place.mean));
+  const auto s = static_cast<std::size_t>(slot);
+  if (s >= entries_.size()) entries_.resize(s + 1);
+  const bool known = settings_.association == Association::kKnown;
+  entries_[s] = {known ? id : nextNumber_++, 1, time};
+  if (known) slotOf_[id] = slot;
+}
+}  // namespace slamot::filters::ekf

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "Belief.h"
+#include "sighting/Sighting.h"
+
+namespace slamot::filters::ekf
+{
+/// Innovation of a sighting of the object that begins at `object`, by a robot; S from all their
+/// covariances.  `noise` multiplies the sighting's variances.  False as innovate().
+inline bool relate(const Belief& belief, int robot, int object, const Eye& eye, const Ray& z,
+                   Innovation& o, double noise = 1)
+{
+  const Matrix3 R = belief.P().block<3, 3>(robot, robot);
+  const Matrix2 M = belief.P().block<2, 2>(object, object);
+  const Eigen::Matrix<double, 2, 3> MR = belief.P().block<2, 3>(object, robot);
+  const Matrix2 across = MR.leftCols<2>();
+  const Matrix2 D = M + R.topLeftCorner<2, 2>() - across - across.transpose();
+  const auto& x = belief.x();
+  if (!innovate(eye, z, x[object], x[object + 1], D(0, 0), D(0, 1), D(1, 1), o, noise))
+    return false;
+  // What is left of S is due to the heading.
+  const Vector2 turn(o.turnR, o.turnB);
+  Matrix2 H;
+  H << o.h11, o.h12, o.h21, o.h22;
+  const Vector2 withHeading = H * (MR.col(2) - R.block<2, 1>(0, 2));
+  const Matrix2 add = turn * withHeading.transpose() + withHeading * turn.transpose() +
+                      R(2, 2) * turn * turn.transpose();
+  o.s11 += add(0, 0);
+  o.s12 += add(0, 1);
+  o.s22 += add(1, 1);
+  o.det = o.s11 * o.s22 - o.s12 * o.s12;
+  o.d2 = (o.s22 * o.nuR * o.nuR - 2 * o.s12 * o.nuR * o.nuB + o.s11 * o.nuB * o.nuB) / o.det;
+  return true;
+}
+
+/// The same sighting for an update.
+inline SightingRows rowsOf(int robot, int object, const Innovation& o, const Ray& z,
+                           double noise = 1)
+{
+  SightingRows out;
+  out.robot = robot;
+  out.object = object;
+  out.byRobot << -o.h11, -o.h12, o.turnR, -o.h21, -o.h22, o.turnB;
+  out.byObject << o.h11, o.h12, o.h21, o.h22;
+  out.innovation << o.nuR, o.nuB;
+  out.variance << (z.hasRange ? noise : 1) * z.varRange, noise * z.varBearing;
+  return out;
+}
+
+/// A robot's pose with sine and cosine of its heading.
+inline Eye eyeOf(const Belief& belief, int robot)
+{
+  const auto& x = belief.x();
+  return Eye(Pose2D(x[robot], x[robot + 1], x[robot + 2]));
+}
+
+/// Derivative, by the robot's pose, of the place where a sighting puts its object.
+inline Eigen::Matrix<double, 2, 3> placeByRobot(const Eye& eye, const Point2D& place)
+{
+  Eigen::Matrix<double, 2, 3> out;
+  out << 1, 0, eye.y - place.y, 0, 1, place.x - eye.x;
+  return out;
+}
+}  // namespace slamot::filters::ekf

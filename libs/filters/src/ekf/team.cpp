@@ -1,0 +1,157 @@
+#include "Engine.h"
+
+#include <slamot/core/Error.h>
+#include <slamot/math/statistics.h>
+
+#include <stdexcept>
+
+// The part of the filter that takes part in a team.
+namespace slamot::filters::ekf
+{
+namespace
+{
+constexpr int kRobot = core::RobotAndTarget::kRobot;
+
+math::Intersection intersectionOf(core::FusionRule rule)
+{
+  switch (rule)
+  {
+    case core::FusionRule::kSplitCi:
+      return math::Intersection::kSplit;
+    case core::FusionRule::kIci:
+      return math::Intersection::kInverse;
+    default:
+      return math::Intersection::kCovariance;
+  }
+}
+}  // namespace
+
+template <class Motion>
+core::RobotAndTarget EngineOf<Motion>::robotAndTarget(int target) const
+{
+  core::RobotAndTarget out;
+  out.time = times_[0];
+  const Target* const found = target == core::kNoId ? nullptr : targetWith(target);
+  const auto kinematics = Motion::kinematics(found ? stateOf(*found) : State{});
+  const int k = found ? static_cast<int>(kinematics.value.size()) : 0;
+  const auto& P = belief_.P();
+  out.mean.resize(kRobot + k);
+  out.cov.resize(kRobot + k, kRobot + k);
+  out.mean.head<kRobot>() = belief_.x().template head<kRobot>();
+  out.cov.topLeftCorner<kRobot, kRobot>() = P.template block<kRobot, kRobot>(0, 0);
+  if (!found) return out;
+  const int j = belief_.target(found->slot);
+  const auto& J = kinematics.jacobian;
+  out.target = target;
+  out.mean.tail(k) = kinematics.value;
+  out.cov.bottomLeftCorner(k, kRobot) = J * P.template block<kSize, kRobot>(j, 0);
+  out.cov.topRightCorner(kRobot, k) = out.cov.bottomLeftCorner(k, kRobot).transpose();
+  const Eigen::MatrixXd own = J * P.template block<kSize, kSize>(j, j) * J.transpose();
+  out.cov.bottomRightCorner(k, k) = 0.5 * (own + own.transpose());
+  return out;
+}
+
+template <class Motion>
+Belief::Rows EngineOf<Motion>::rowsOf(const Eigen::MatrixXd& H, const Target* target) const
+{
+  Belief::Rows out{{0}, {H.leftCols<kRobot>()}};
+  if (!target) return out;
+  out.at.push_back(belief_.target(target->slot));
+  out.columns.push_back(H.rightCols(H.cols() - kRobot) *
+                        Motion::kinematics(stateOf(*target)).jacobian);
+  return out;
+}
+
+template <class Motion>
+core::Fusion EngineOf<Motion>::fuse(const core::Evidence& evidence,
+                                    const core::FusionOptions& options)
+{
+  if (options.rule == core::FusionRule::kNone) return {};
+  const Target* const target = targetWith(evidence.target);
+  const int size =
+      kRobot + (target ? static_cast<int>(Motion::kinematics(State{}).value.size()) : 0);
+  try
+  {
+    if (evidence.H.cols() != size) throw std::domain_error("it is of other coordinates");
+    if (options.rule == core::FusionRule::kPaper) return fuseBlocks(evidence, options, target);
+    const Belief::Rows H = rowsOf(evidence.H, target);
+    const Eigen::MatrixXd W = belief_.product(H);
+    const auto update =
+        math::intersect(intersectionOf(options.rule), Belief::innovationCov(H, W),
+                        evidence.innovation, evidence.cov, evidence.independent,
+                        belief_.criterion(H, W, options.headingLever), options.omega);
+    if (!update.pays) return {};
+    belief_.fuse(H, W, update);
+    wrapAngles();
+    return {true, update.omega};
+  }
+  catch (const std::domain_error& e)
+  {
+    throw core::Error(core::ExitStatus::kNonsense, "evidence of another robot", e.what());
+  }
+}
+
+// Equations (3)-(15) of the paper, as corrected: first the robot's place, then the target.
+template <class Motion>
+core::Fusion EngineOf<Motion>::fuseBlocks(const core::Evidence& evidence,
+                                          const core::FusionOptions& options, const Target* target)
+{
+  const Eigen::Index rows = evidence.H.rows();
+  const bool ofRobot = (evidence.H.leftCols<kRobot>().array() != 0).any();
+  const Eigen::Index first = ofRobot ? 2 : 0;
+  core::Fusion out{true, 0};
+  const auto fuseBlock = [&](int j, Eigen::Index row, Eigen::Index k)
+  {
+    Eigen::MatrixXd A(k, k);
+    for (int a = 0; a < k; ++a)
+      for (int b = 0; b < k; ++b) A(a, b) = belief_.P()(j + a, j + b);
+    const auto block = math::paperBlock(A, evidence.innovation.segment(row, k),
+                                        evidence.cov.block(row, row, k, k), options.omega);
+    belief_.reshape(j, block.shift, block.crossFactor, block.cov);
+    out.omega = std::max(out.omega, block.omega);
+  };
+  const bool fitsTarget = rows == first || (target && rows - first <= kSize && Motion::kAngle < 0);
+  if (!fitsTarget) throw std::domain_error("the paper's rule wants the target's own coordinates");
+  if (ofRobot) fuseBlock(0, 0, 2);
+  if (rows > first) fuseBlock(belief_.target(target->slot), first, rows - first);
+  return out;
+}
+
+template <class Motion>
+void EngineOf<Motion>::predictTarget(core::RobotAndTarget& other, double dt) const
+{
+  constexpr int K = decltype(Motion::kinematics(State{}).value)::RowsAtCompileTime;
+  if (other.targetSize() > K)  // what this model does not know is left out
+  {
+    other.mean.conservativeResize(kRobot + K);
+    other.cov.conservativeResize(kRobot + K, kRobot + K);
+  }
+  const int k = other.targetSize();
+  if (k == 0 || dt <= 0) return;
+  Eigen::Matrix<double, K, 1> x = Eigen::Matrix<double, K, 1>::Zero();
+  x.head(k) = other.mean.tail(k);
+  const models::TargetTransition<K> t = motion_.kinematicTransition(x, dt);
+  Eigen::MatrixXd Q = t.Q.topLeftCorner(k, k);
+  if constexpr (K == 6)  // an acceleration that was not told is noise
+    if (k < K)
+      Q += std::pow(motion_.accelerationStd(), 2) * t.F.template block<4, 2>(0, 4) *
+           t.F.template block<4, 2>(0, 4).transpose();
+  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(kRobot + k, kRobot + k);
+  F.bottomRightCorner(k, k) = t.F.topLeftCorner(k, k);
+  other.mean = (F * other.mean).eval();
+  other.cov = (F * other.cov * F.transpose()).eval();
+  other.cov.bottomRightCorner(k, k) += Q;
+  other.cov = (0.5 * (other.cov + other.cov.transpose())).eval();
+  other.time += dt;
+}
+
+#define SLAMOT_TEAM_PART(Motion)                                                                   \
+  template core::RobotAndTarget EngineOf<Motion>::robotAndTarget(int) const;                       \
+  template core::Fusion EngineOf<Motion>::fuse(const core::Evidence&, const core::FusionOptions&); \
+  template void EngineOf<Motion>::predictTarget(core::RobotAndTarget&, double) const
+SLAMOT_TEAM_PART(models::DifferentialDriveTarget);
+SLAMOT_TEAM_PART(models::DampedVelocityTarget);
+SLAMOT_TEAM_PART(models::ConstantVelocityTarget);
+SLAMOT_TEAM_PART(models::ConstantAccelerationTarget);
+#undef SLAMOT_TEAM_PART
+}  // namespace slamot::filters::ekf
