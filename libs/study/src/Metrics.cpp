@@ -102,6 +102,14 @@ std::function<Value(const Run&)> target(ErrorSummary eval::TargetEvaluation::*pa
   { return overTargets(r, [=](const eval::TargetEvaluation& t) { return (t.*part).*pick; }); };
 }
 
+Value robotLargest(const Run& r)
+{
+  Value out;
+  for (const StepError& e : r.evaluation.robot.steps)
+    out = std::max(out.value_or(0.0), distance(e));
+  return out;
+}
+
 Value robotHeadingMean(const Run& r)
 {
   return headingMean(r.evaluation.robot.steps);
@@ -180,6 +188,7 @@ const std::vector<Entry>& entries()
   static const std::vector<Entry> list = {
       {{"robot_mean_m", "robot position error, mean [m]", 4}, robot(&E::positionMean)},
       {{"robot_rmse_m", "robot position RMSE [m]", 4}, robot(&E::positionRmse)},
+      {{"robot_largest_m", "largest position error of a run [m]", 4}, robotLargest},
       {{"robot_heading_mean_rad", "robot heading error, mean [rad]", 4}, robotHeadingMean},
       {{"robot_heading_rmse_rad", "robot heading RMSE [rad]", 4}, robot(&E::headingRmse)},
       {{"robot_scans_mean_m", "robot position error at scans [m]", 4},
