@@ -36,4 +36,5 @@ void addRun(CLI::App& app, int& status);
 void addEvaluate(CLI::App& app, int& status);
 void addRender(CLI::App& app, int& status);
 void addStudy(CLI::App& app, int& status);
+void addTeam(CLI::App& app, int& status);
 }  // namespace slamot::apps

@@ -77,6 +77,7 @@ int runCommand(int argc, char** argv)
   slamot::apps::addRender(app, status);
   slamot::apps::addSimulate(app, status);
   slamot::apps::addStudy(app, status);
+  slamot::apps::addTeam(app, status);
   slamot::apps::addImport(app, status);
   try
   {

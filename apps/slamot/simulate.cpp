@@ -36,7 +36,7 @@ sim::Scenario readScenario(const SimulateOptions& o)
 {
   core::Config config = core::Config::load(o.scenario);
   for (const std::string& assignment : o.common.set) config.set(assignment);
-  sim::Scenario scenario = sim::Scenario::from(config);
+  const sim::Scenario scenario = sim::Scenario::from(config);
   config.requireAllRead();
   return scenario;
 }

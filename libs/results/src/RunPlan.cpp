@@ -32,16 +32,25 @@ std::uint64_t readSeed(core::Params& run)
 }
 }  // namespace
 
+SeedAndAlign readSeedAndAlign(core::Config& config, bool startsAreKnown)
+{
+  core::Params run(config, "run");
+  SeedAndAlign out;
+  out.seed = readSeed(run);
+  const eval::Align usual = startsAreKnown ? eval::Align::kNone : eval::Align::kFirstPose;
+  out.align = *eval::alignNamed(run.choice("align", eval::alignNames(), eval::nameOf(usual)));
+  return out;
+}
+
 RunPlan planRun(core::Config& config, const core::Starts& ofLog)
 {
   RunPlan plan;
   plan.method = core::methodOf(config);
-  core::Params run(config, "run");
-  plan.seed = readSeed(run);
   adoptStarts(config, ofLog);
   plan.starts = core::Starts::from(config);
-  const eval::Align usual = plan.starts.robot ? eval::Align::kNone : eval::Align::kFirstPose;
-  plan.align = *eval::alignNamed(run.choice("align", eval::alignNames(), eval::nameOf(usual)));
+  const SeedAndAlign run = readSeedAndAlign(config, plan.starts.robot.has_value());
+  plan.seed = run.seed;
+  plan.align = run.align;
   return plan;
 }
 }  // namespace slamot::results

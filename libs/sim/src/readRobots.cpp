@@ -18,7 +18,6 @@ std::vector<std::string> robotSections(const core::Config& config)
   if (numbers.empty()) return {"robot"};
   std::sort(numbers.begin(), numbers.end());
   std::vector<std::string> out;
-  out.reserve(numbers.size());
   for (const int number : numbers) out.push_back("robot_" + std::to_string(number));
   const auto fail = [&](const std::string& section, const std::string& what,
                         const std::string& mend) {

@@ -18,6 +18,17 @@ struct RunPlan
   eval::Align align = eval::Align::kNone;
 };
 
+/// Keys `seed` and `align` of [run].
+struct SeedAndAlign
+{
+  std::uint64_t seed = 1;
+  eval::Align align = eval::Align::kNone;
+};
+
+/// Unless [run] says otherwise, results are not aligned where starts were given, else by the first
+/// pose.  \throws core::Error (kConfig).
+[[nodiscard]] SeedAndAlign readSeedAndAlign(core::Config& config, bool startsAreKnown);
+
 /// Reads [run] (method, seed, align) and [start].  A config without [start] takes over the log's,
 /// so that the effective config repeats the run.  Unless [run] says otherwise, results are not
 /// aligned where the robot's start was given, else by the first pose.

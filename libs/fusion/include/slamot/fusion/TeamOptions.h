@@ -1,0 +1,26 @@
+#pragma once
+
+#include <slamot/fusion/Radio.h>
+#include <slamot/fusion/Receiver.h>
+
+namespace slamot::fusion
+{
+/// Section [team] of a configuration: what is exchanged, when, and how it is fused.
+struct TeamOptions
+{
+  core::FusionOptions fusion;
+  bool centralized = false;     ///< rule = centralized: one EKF over all, no messages
+  std::string ruleName;         ///< as in the configuration
+  int exchangeEvery = 1;        ///< a robot sends after each so many of its own steps
+  int target = 0;               ///< identity of the target that estimates are exchanged of
+  std::string mateLabel;        ///< of blobs that may be team mates
+  bool mateIdentities = false;  ///< whether the identities of such blobs are believed
+  std::string frame;
+  double candidateGate = 0.99, targetGate = 0.999;
+  double maxAge = 1, candidateMaxAge = 0.02;  ///< [s]
+  Radio::Options radio;
+
+  /// \throws core::Error (kConfig).
+  static TeamOptions from(core::Config& config, std::uint64_t seed);
+};
+}  // namespace slamot::fusion

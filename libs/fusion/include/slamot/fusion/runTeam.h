@@ -1,0 +1,24 @@
+#pragma once
+
+#include <slamot/core/run.h>
+#include <slamot/fusion/Member.h>
+
+namespace slamot::fusion
+{
+/// What a team's run needs of one robot.  Without a member it exchanges nothing.
+struct TeamRobot
+{
+  core::Source* source = nullptr;
+  core::Filter* filter = nullptr;
+  Member* member = nullptr;
+  std::vector<core::Sink*> sinks;
+  std::vector<FusionEvent> events;  ///< filled by the run
+};
+
+/// Replays several logs on one clock: the robots that have a step at the earliest time take it in,
+/// then those whose turn it is send, and then every one of them takes in what has reached it; what
+/// it believes then goes to its sinks.  A message is made before any of its instant is taken in.
+/// Errors as core::run().
+core::RunResult runTeam(std::vector<TeamRobot>& robots, Radio& radio,
+                        const core::RunOptions& options = {});
+}  // namespace slamot::fusion

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <slamot/filters/EkfSlamot.h>
+#include <slamot/fusion/runTeam.h>
+
+namespace slamot::team
+{
+/// One robot's log.
+struct Log
+{
+  int number = 0;  ///< under which others see it and messages name it
+  core::Source* source = nullptr;
+  core::Starts starts;
+};
+
+/// A team made from a configuration: a filter for each robot, their messages and the radio; or,
+/// with rule = centralized, one EKF for all.
+class Team
+{
+ public:
+  /// The filters are those of `methods` in [team], one a robot, or of the config's one method.
+  /// \throws core::Error (kConfig) on a wrong configuration, a filter that can't be one of a team,
+  /// or two robots of one number.
+  Team(core::Config& config, const std::vector<Log>& logs, std::uint64_t seed, int threads);
+
+  /// Runs all logs to their end; sinks by robot.  As fusion::runTeam().
+  core::RunResult run(const std::vector<std::vector<core::Sink*>>& sinks,
+                      const core::RunOptions& options = {});
+
+  [[nodiscard]] std::size_t size() const { return robots_.size(); }
+  [[nodiscard]] const fusion::TeamOptions& options() const { return options_; }
+  [[nodiscard]] const core::Filter& filter(std::size_t robot) const { return *filters_[robot]; }
+  [[nodiscard]] const std::string& method(std::size_t robot) const { return methods_[robot]; }
+  /// Null with rule = centralized.
+  [[nodiscard]] const fusion::Member* member(std::size_t robot) const
+  {
+    return robots_[robot].member;
+  }
+  [[nodiscard]] const std::vector<fusion::FusionEvent>& events(std::size_t robot) const
+  {
+    return robots_[robot].events;
+  }
+
+ private:
+  void centralize(core::Config& config, const std::vector<core::FilterContext>& contexts,
+                  const std::vector<Log>& logs);
+  void gather(core::Config& config, const std::vector<core::FilterContext>& contexts,
+              const std::vector<Log>& logs);
+
+  fusion::TeamOptions options_;
+  std::vector<std::string> methods_;
+  std::unique_ptr<filters::CentralizedEkf> shared_;
+  std::vector<std::unique_ptr<core::Filter>> filters_;
+  std::vector<std::unique_ptr<fusion::Member>> members_;
+  std::vector<fusion::TeamRobot> robots_;
+  fusion::Radio radio_;
+};
+
+/// The methods of a team's robots, as the configuration names them.
+/// \throws core::Error (kConfig) if it names neither one nor as many as there are robots.
+[[nodiscard]] std::vector<std::string> methodsOf(core::Config& config, std::size_t robots);
+}  // namespace slamot::team

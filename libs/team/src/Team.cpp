@@ -1,0 +1,114 @@
+#include <slamot/team/Team.h>
+
+#include <slamot/core/Error.h>
+
+namespace slamot::team
+{
+namespace
+{
+using core::Error;
+using core::ExitStatus;
+
+/// One robot's view of a filter that all share.
+class SharedFilter : public core::Filter
+{
+ public:
+  SharedFilter(filters::CentralizedEkf& ekf, int robot) : ekf_(ekf), robot_(robot) {}
+  core::Update process(const core::Step& step) override { return ekf_.process(robot_, step); }
+  [[nodiscard]] core::Estimate estimate() const override { return ekf_.estimate(robot_); }
+
+ private:
+  filters::CentralizedEkf& ekf_;
+  int robot_;
+};
+
+std::set<int> numbersOf(const std::vector<Log>& logs)
+{
+  std::set<int> out;
+  for (const Log& log : logs)
+    if (!out.insert(log.number).second)
+      throw Error(ExitStatus::kConfig, "the team",
+                  "two robots have the number " + std::to_string(log.number),
+                  "name the logs X.robot<number>.rawlog");
+  return out;
+}
+}  // namespace
+
+std::vector<std::string> methodsOf(core::Config& config, std::size_t robots)
+{
+  core::Params p(config, "team");
+  if (!p.has("methods")) return std::vector<std::string>(robots, core::methodOf(config));
+  auto out = p.list("methods");
+  if (out.size() == 1) out.resize(robots, out.front());
+  if (out.size() != robots)
+    p.fail("methods",
+           "names " + std::to_string(out.size()) + " filters for " + std::to_string(robots) +
+               " robots",
+           "name one for all or one for each");
+  return out;
+}
+
+Team::Team(core::Config& config, const std::vector<Log>& logs, std::uint64_t seed, int threads)
+    : options_(fusion::TeamOptions::from(config, seed)), radio_(options_.radio)
+{
+  std::vector<core::FilterContext> contexts(logs.size());
+  for (std::size_t r = 0; r < logs.size(); ++r)
+  {
+    contexts[r].starts = logs[r].starts;
+    // Filters that draw at random must not draw the same.
+    contexts[r].seed = seed + 1'000'003 * r;
+    contexts[r].threads = threads;
+  }
+  methods_ = methodsOf(config, logs.size());
+  if (options_.centralized)
+    centralize(config, contexts, logs);
+  else
+    gather(config, contexts, logs);
+  for (std::size_t r = 0; r < logs.size(); ++r)
+    robots_.push_back({logs[r].source,
+                       filters_[r].get(),
+                       options_.centralized ? nullptr : members_[r].get(),
+                       {},
+                       {}});
+}
+
+void Team::centralize(core::Config& config, const std::vector<core::FilterContext>& contexts,
+                      const std::vector<Log>& logs)
+{
+  for (const std::string& method : methods_)
+    if (method != "ekf-slamot")
+      throw Error(ExitStatus::kConfig, config.name() + " [team] rule",
+                  "is centralized, which is one EKF, but " + method + " is asked for",
+                  "use ekf-slamot, or another rule");
+  std::vector<int> ids;
+  for (const Log& log : logs) ids.push_back(options_.mateIdentities ? log.number : core::kNoId);
+  core::Params params(config, "ekf-slamot");
+  shared_ = std::make_unique<filters::CentralizedEkf>(params, contexts, options_.mateLabel, ids);
+  for (std::size_t r = 0; r < logs.size(); ++r)
+    filters_.push_back(std::make_unique<SharedFilter>(*shared_, static_cast<int>(r)));
+}
+
+void Team::gather(core::Config& config, const std::vector<core::FilterContext>& contexts,
+                  const std::vector<Log>& logs)
+{
+  const std::set<int> numbers = numbersOf(logs);
+  for (std::size_t r = 0; r < logs.size(); ++r)
+  {
+    filters_.push_back(core::FilterRegistry::instance().make(methods_[r], config, contexts[r]));
+    auto* const filter = dynamic_cast<core::TeamFilter*>(filters_.back().get());
+    if (!filter)
+      throw Error(ExitStatus::kConfig, config.name() + " [team]",
+                  "the filter " + methods_[r] + " can't be one of a team",
+                  "use ekf-slamot or rbpf-slamot");
+    members_.push_back(
+        std::make_unique<fusion::Member>(logs[r].number, numbers, *filter, options_));
+  }
+}
+
+core::RunResult Team::run(const std::vector<std::vector<core::Sink*>>& sinks,
+                          const core::RunOptions& options)
+{
+  for (std::size_t r = 0; r < robots_.size(); ++r) robots_[r].sinks = sinks[r];
+  return fusion::runTeam(robots_, radio_, options);
+}
+}  // namespace slamot::team
