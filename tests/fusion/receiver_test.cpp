@@ -5,7 +5,9 @@
 #include <slamot/math/random.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 namespace slamot::fusion
@@ -402,6 +404,24 @@ TEST(Receiver, RefusesOptionsThatMakeNoSense)
   o = options();
   o.frame.clear();
   EXPECT_THROW(Receiver(1, o), core::Error);
+}
+
+// Written from the layout's table by another program: doc/team.md.  What the fuzzer found, too.
+TEST(Receiver, HearsMessagesOfOtherPrograms)
+{
+  const auto outcome = [](const std::string& file)
+  {
+    std::ifstream in(std::string(SLAMOT_FUZZ_CORPUS) + "/" + file, std::ios::binary);
+    const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
+    Robot robot;
+    return robot.receiver.receive(bytes, kNow, robot.filter);
+  };
+  const Receipt acceleration = outcome("acceleration"), velocity = outcome("velocity");
+  EXPECT_STREQ(name(acceleration.outcome), "fused");
+  EXPECT_EQ(acceleration.candidate, -1);  // one that is named is another place
+  EXPECT_STREQ(name(velocity.outcome), "fused");
+  EXPECT_EQ(velocity.candidate, 0);
+  EXPECT_STREQ(name(outcome("robot").outcome), "did_not_pay");
 }
 
 // A million messages: noise, and good ones damaged, some of them with a new checksum.
