@@ -174,6 +174,7 @@ TEST(Receiver, DropsEveryBadKindAndCountsIt)
          m.estimate = someEstimate(0);
          m.candidates.clear();
        }},
+      {Outcome::kNothingUsable, [](Message& m) { m.estimate = someEstimate(0, kNow - 0.5); }},
   };
   for (std::size_t i = 0; i < kinds.size(); ++i)
   {

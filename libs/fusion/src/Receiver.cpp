@@ -142,9 +142,10 @@ void Receiver::fuse(const Message& m, double now, core::TeamFilter& filter, Rece
       return;
     }
   }
-  if (!m.candidates.empty() && age > options_.candidateMaxAge)
+  const bool seen = !m.candidates.empty(), late = seen && age > options_.candidateMaxAge;
+  if (late)
     counts_.add(Note::kLateCandidates);
-  else if (!m.candidates.empty())
+  else if (seen)
     chooseCandidate(m.candidates, told, own, shared, evidence, receipt);
 
   if (evidence)
@@ -152,8 +153,7 @@ void Receiver::fuse(const Message& m, double now, core::TeamFilter& filter, Rece
   else if (m.estimate.targetSize() > 0)
     receipt.outcome = Outcome::kNoSuchTarget;
   else
-    receipt.outcome =
-        m.candidates.empty() ? Outcome::kNothingUsable : Outcome::kCandidateGateFailed;
+    receipt.outcome = seen && !late ? Outcome::kCandidateGateFailed : Outcome::kNothingUsable;
 }
 
 void Receiver::chooseCandidate(const std::vector<Candidate>& candidates, const RobotAndTarget& told,

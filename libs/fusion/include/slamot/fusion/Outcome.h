@@ -35,7 +35,7 @@ enum class Outcome
   kNotPositiveDefinite,
   // The fit.
   kNoSuchTarget,         ///< its target isn't followed here, and it had no sighting of this robot
-  kNothingUsable,        ///< neither a target nor a sighting
+  kNothingUsable,        ///< neither a target nor a sighting of now
   kTargetGateFailed,     ///< its target is not where this robot's is
   kCandidateGateFailed,  ///< no target, and none of its sightings is this robot
   kRefusedByFilter,
