@@ -139,7 +139,7 @@ class Rule
 
   void setIndependent(const ConstMatrix& independent)
   {
-    const BlockMatrix whitened = pencil_.V.transpose() * independent * pencil_.V;
+    const BlockMatrix whitened = pencil_.V.transpose() * BlockMatrix(independent) * pencil_.V;
     independent_ = 0.5 * (whitened + whitened.transpose());
     const Eigen::SelfAdjointEigenSolver<BlockMatrix> eigen(independent_, Eigen::EigenvaluesOnly);
     const auto& values = eigen.eigenvalues();
