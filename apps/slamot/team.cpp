@@ -3,7 +3,6 @@
 #include <slamot/eval/Alignment.h>
 #include <slamot/eval/Recorder.h>
 #include <slamot/mrpt/RawlogSource.h>
-#include <slamot/results/Report.h>
 #include <slamot/results/ResultFolder.h>
 #include <slamot/results/RunPlan.h>
 #include <slamot/results/StepTimer.h>
@@ -18,8 +17,7 @@
 
 #include "Command.h"
 #include "Progress.h"
-#include "laserMaps.h"
-#include "sceneOf.h"
+#include "memberResult.h"
 
 namespace slamot::apps
 {
@@ -148,16 +146,8 @@ class TeamRun
       Robot& robot = *robots_[r];
       const results::RunInfo info{team_->method(r), robot.dataset, plan_.seed, text};
       const results::RunView view{robot.record, robot.truth, evaluations[r]};
-      const auto addPictures = [&](const std::string& place)
-      {
-        mrpt::saveScene((fs::path(place) / "scene.3Dscene").string(),
-                        sceneOf(results::titleOf(info), view, team_->filter(r).particles()));
-        saveLaserMaps(place, robot.record);
-        results::writeReport((fs::path(place) / "report.html").string(), info, view);
-      };
       const std::string place = (fs::path(folder.temporary()) / robot.name).string();
-      results::writeResult(place, info, robot.record, evaluations[r], timing, addPictures);
-      team::writeFusions((fs::path(place) / "fusions.csv").string(), team_->events(r));
+      writeMemberResult(place, info, view, team_->filter(r), timing, team_->events(r));
       all.push_back({robot.name, view});
     }
     const fs::path place(folder.temporary());

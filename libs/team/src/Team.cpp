@@ -48,17 +48,36 @@ std::vector<std::string> methodsOf(core::Config& config, std::size_t robots)
   return out;
 }
 
+core::FilterContext contextOf(const core::Starts& starts, std::size_t robot, std::uint64_t seed,
+                              int threads)
+{
+  core::FilterContext out;
+  out.starts = starts;
+  // Filters that draw at random must not draw the same.
+  out.seed = seed + 1'000'003 * robot;
+  out.threads = threads;
+  return out;
+}
+
+MemberFilter makeFilter(core::Config& config, const std::string& method,
+                        const core::FilterContext& context)
+{
+  MemberFilter out;
+  out.filter = core::FilterRegistry::instance().make(method, config, context);
+  out.asMember = dynamic_cast<core::TeamFilter*>(out.filter.get());
+  if (!out.asMember)
+    throw Error(ExitStatus::kConfig, config.name() + " [team]",
+                "the filter " + method + " can't be one of a team",
+                "use ekf-slamot or rbpf-slamot");
+  return out;
+}
+
 Team::Team(core::Config& config, const std::vector<Log>& logs, std::uint64_t seed, int threads)
     : options_(fusion::TeamOptions::from(config, seed)), radio_(options_.radio)
 {
-  std::vector<core::FilterContext> contexts(logs.size());
+  std::vector<core::FilterContext> contexts;
   for (std::size_t r = 0; r < logs.size(); ++r)
-  {
-    contexts[r].starts = logs[r].starts;
-    // Filters that draw at random must not draw the same.
-    contexts[r].seed = seed + 1'000'003 * r;
-    contexts[r].threads = threads;
-  }
+    contexts.push_back(contextOf(logs[r].starts, r, seed, threads));
   methods_ = methodsOf(config, logs.size());
   if (options_.centralized)
     centralize(config, contexts, logs);
@@ -94,14 +113,10 @@ void Team::gather(core::Config& config, const std::vector<core::FilterContext>& 
   const std::set<int> numbers = numbersOf(logs);
   for (std::size_t r = 0; r < logs.size(); ++r)
   {
-    filters_.push_back(core::FilterRegistry::instance().make(methods_[r], config, contexts[r]));
-    auto* const filter = dynamic_cast<core::TeamFilter*>(filters_.back().get());
-    if (!filter)
-      throw Error(ExitStatus::kConfig, config.name() + " [team]",
-                  "the filter " + methods_[r] + " can't be one of a team",
-                  "use ekf-slamot or rbpf-slamot");
+    auto made = makeFilter(config, methods_[r], contexts[r]);
     members_.push_back(
-        std::make_unique<fusion::Member>(logs[r].number, numbers, *filter, options_));
+        std::make_unique<fusion::Member>(logs[r].number, numbers, *made.asMember, options_));
+    filters_.push_back(std::move(made.filter));
   }
 }
 

@@ -56,6 +56,20 @@ class Team
   fusion::Radio radio_;
 };
 
+/// What a filter of the robot at this place in the team is made from.
+[[nodiscard]] core::FilterContext contextOf(const core::Starts& starts, std::size_t robot,
+                                            std::uint64_t seed, int threads);
+
+/// A filter, and itself as one that can exchange estimates.
+struct MemberFilter
+{
+  std::unique_ptr<core::Filter> filter;
+  core::TeamFilter* asMember = nullptr;
+};
+/// \throws core::Error (kConfig) on a wrong configuration, or a filter that can't exchange.
+[[nodiscard]] MemberFilter makeFilter(core::Config& config, const std::string& method,
+                                      const core::FilterContext& context);
+
 /// The methods of a team's robots, as the configuration names them.
 /// \throws core::Error (kConfig) if it names neither one nor as many as there are robots.
 [[nodiscard]] std::vector<std::string> methodsOf(core::Config& config, std::size_t robots);

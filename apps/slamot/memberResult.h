@@ -1,0 +1,18 @@
+#pragma once
+
+#include <slamot/core/Filter.h>
+#include <slamot/fusion/Member.h>
+#include <slamot/results/Figures.h>
+#include <slamot/results/Summary.h>
+
+#include <string>
+#include <vector>
+
+namespace slamot::apps
+{
+/// Writes the result folder of one robot of a team: that of a run, and what it fused.
+void writeMemberResult(const std::string& place, const results::RunInfo& info,
+                       const results::RunView& view, const core::Filter& filter,
+                       const results::Timing& timing,
+                       const std::vector<fusion::FusionEvent>& events);
+}  // namespace slamot::apps
