@@ -37,4 +37,5 @@ void addEvaluate(CLI::App& app, int& status);
 void addRender(CLI::App& app, int& status);
 void addStudy(CLI::App& app, int& status);
 void addTeam(CLI::App& app, int& status);
+void addRobot(CLI::App& app, int& status);
 }  // namespace slamot::apps

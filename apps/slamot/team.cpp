@@ -124,7 +124,9 @@ class TeamRun
     for (std::size_t r = 0; r < robots_.size(); ++r)
       logs.push_back({numbers[r], &robots_[r]->source, robots_[r]->source.starts()});
     team_ = std::make_unique<team::Team>(config_, logs, plan_.seed, o_.common.threads);
-    config_.requireAllRead(core::FilterRegistry::instance().names());
+    auto others = core::FilterRegistry::instance().names();
+    others.push_back("dds");  // for the same robots live
+    config_.requireAllRead(others);
   }
 
   [[nodiscard]] bool startsAreKnown() const

@@ -82,15 +82,21 @@ std::string cell(const Value& v, const char* format)
 }
 }  // namespace
 
-std::vector<int> robotNumbers(const std::vector<std::string>& names)
+std::optional<int> numberIn(const std::string& name)
 {
   static const std::regex pattern("robot([0-9]{1,6})$");
+  std::smatch match;
+  if (!std::regex_search(name, match, pattern)) return {};
+  return std::stoi(match[1]);
+}
+
+std::vector<int> robotNumbers(const std::vector<std::string>& names)
+{
   std::vector<int> byName, byPlace;
   for (const std::string& name : names)
   {
     byPlace.push_back(static_cast<int>(byPlace.size()));
-    std::smatch match;
-    if (std::regex_search(name, match, pattern)) byName.push_back(std::stoi(match[1]));
+    if (const auto number = numberIn(name)) byName.push_back(*number);
   }
   return byName.size() == names.size() ? byName : byPlace;
 }

@@ -6,6 +6,9 @@
 
 namespace slamot::team
 {
+/// The number at the end of a robot's name (`X.robot<number>`), if it has one.
+[[nodiscard]] std::optional<int> numberIn(const std::string& name);
+
 /// The number of each robot: that at the end of its name (`X.robot<number>`) where all have one,
 /// else its place.
 [[nodiscard]] std::vector<int> robotNumbers(const std::vector<std::string>& names);
