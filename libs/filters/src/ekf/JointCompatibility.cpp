@@ -57,6 +57,8 @@ class Search
     const std::size_t left = begin_.size() - 1 - level;
     const std::size_t reach = chosen_.size() + left;
     if (reach < best_.size() || (reach == best_.size() && d2 >= bestD2_) || --steps_ < 0) return;
+    // A larger set may be within its gate where a part of it is not within its own.
+    if (d2 > gate_[reach]) return;
     if (left == 0)
     {
       best_ = chosen_;
@@ -67,7 +69,6 @@ class Search
     {
       if (isTaken(pairs_[i].thing)) continue;
       const double with = d2 + append(static_cast<int>(i));
-      if (!(with <= gate_[chosen_.size() + 1])) continue;
       chosen_.push_back(static_cast<int>(i));
       descend(level + 1, with);
       chosen_.pop_back();

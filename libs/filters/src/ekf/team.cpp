@@ -98,23 +98,25 @@ core::Fusion EngineOf<Motion>::fuseBlocks(const core::Evidence& evidence,
 {
   const Eigen::Index rows = evidence.H.rows();
   const bool ofRobot = (evidence.H.leftCols<kRobot>().array() != 0).any();
-  const Eigen::Index first = ofRobot ? 2 : 0;
-  core::Fusion out{true, 0};
-  const auto fuseBlock = [&](int j, Eigen::Index row, Eigen::Index k)
+  const Eigen::Index first = ofRobot ? 2 : 0, k = rows - first;
+  if (k > 0 && (!target || k > kSize || Motion::kAngle >= 0))
+    throw std::domain_error("the paper's rule wants the target's own coordinates");
+  const auto block = [&](int j, Eigen::Index row, Eigen::Index size)
   {
-    Eigen::MatrixXd A(k, k);
-    for (int a = 0; a < k; ++a)
-      for (int b = 0; b < k; ++b) A(a, b) = belief_.P()(j + a, j + b);
-    const auto block = math::paperBlock(A, evidence.innovation.segment(row, k),
-                                        evidence.cov.block(row, row, k, k), options.omega);
-    belief_.reshape(j, block.shift, block.crossFactor, block.cov);
-    out.omega = std::max(out.omega, block.omega);
+    Eigen::MatrixXd A(size, size);
+    for (int a = 0; a < size; ++a)
+      for (int b = 0; b < size; ++b) A(a, b) = belief_.P()(j + a, j + b);
+    return math::paperBlock(A, evidence.innovation.segment(row, size),
+                            evidence.cov.block(row, row, size, size), options.omega);
   };
-  const bool fitsTarget = rows == first || (target && rows - first <= kSize && Motion::kAngle < 0);
-  if (!fitsTarget) throw std::domain_error("the paper's rule wants the target's own coordinates");
-  if (ofRobot) fuseBlock(0, 0, 2);
-  if (rows > first) fuseBlock(belief_.target(target->slot), first, rows - first);
-  return out;
+  // Neither changes the other's own covariance; both first, so that an error leaves all as it was.
+  const int j = target ? belief_.target(target->slot) : 0;
+  std::optional<math::PaperBlock> place, motion;
+  if (ofRobot) place = block(0, 0, first);
+  if (k > 0) motion = block(j, first, k);
+  if (place) belief_.reshape(0, place->shift, place->crossFactor, place->cov);
+  if (motion) belief_.reshape(j, motion->shift, motion->crossFactor, motion->cov);
+  return {place || motion, std::max(place ? place->omega : 0, motion ? motion->omega : 0)};
 }
 
 template <class Motion>

@@ -1,0 +1,142 @@
+#include "dense.h"
+
+namespace slamot::filters::ekf
+{
+namespace
+{
+/// Two robots, one target and landmarks, all correlated.
+struct Scene
+{
+  Belief belief{2, 4};
+  math::RandomStream random{7};
+  int target = 0;
+
+  Scene()
+  {
+    target = belief.addTarget();
+    belief.set(belief.robot(0), randomMatrix(3, 1, random), randomCov(3, random));
+    belief.set(belief.robot(1), randomMatrix(3, 1, random), randomCov(3, random));
+    belief.set(belief.target(target), randomMatrix(4, 1, random), randomCov(4, random));
+    for (int k = 0; k < 5; ++k) addLandmark(k % 2);
+    belief.update({randomRows(belief.robot(0), belief.target(target), random),
+                   randomRows(belief.robot(1), belief.target(target), random)});
+  }
+  int addLandmark(int robot)
+  {
+    const Gaussian<Point2D> place{{random.normal(), random.normal()}, randomCov(2, random)};
+    return belief.addLandmark(belief.robot(robot), place, randomMatrix(2, 3, random));
+  }
+};
+
+double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+{
+  return (a - b).cwiseAbs().maxCoeff();
+}
+}  // namespace
+
+TEST(Belief, UpdateIsTheKalmanFilters)
+{
+  Scene s;
+  const Eigen::MatrixXd P = dense(s.belief.P());
+  const Eigen::VectorXd x = s.belief.x();
+  const int n = s.belief.P().size();
+  std::vector<SightingRows> rows;
+  for (int k = 0; k < 5; ++k)
+    rows.push_back(randomRows(s.belief.robot(k < 3 ? 0 : 1), s.belief.landmark(k), s.random));
+  rows.push_back(randomRows(s.belief.robot(1), s.belief.target(s.target), s.random));
+  rows.push_back(randomRows(s.belief.robot(0), s.belief.robot(1), s.random));
+
+  const Eigen::MatrixXd H = denseRows(rows, n);
+  Eigen::VectorXd nu(H.rows()), R(H.rows());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    nu.segment<2>(static_cast<Eigen::Index>(2 * k)) = rows[k].innovation;
+    R.segment<2>(static_cast<Eigen::Index>(2 * k)) = rows[k].variance;
+  }
+  const Eigen::MatrixXd S = H * P * H.transpose() + Eigen::MatrixXd(R.asDiagonal());
+  const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
+  s.belief.update(rows);
+  EXPECT_LT(distance(dense(s.belief.P()), P - K * S * K.transpose()), 1e-12);
+  EXPECT_LT(distance(s.belief.x(), x + K * nu), 1e-12);
+}
+
+TEST(Belief, MoveIsLinearInTheMovedCoordinates)
+{
+  Scene s;
+  const Eigen::MatrixXd P = dense(s.belief.P());
+  const int j = s.belief.target(s.target);
+  const Eigen::MatrixXd F = randomMatrix(4, 4, s.random), Q = randomCov(4, s.random);
+  const Eigen::VectorXd mean = randomMatrix(4, 1, s.random);
+  s.belief.move(j, mean, F, Q);
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(P.rows(), P.rows());
+  T.block<4, 4>(j, j) = F;
+  Eigen::MatrixXd expected = T * P * T.transpose();
+  expected.block<4, 4>(j, j) += Q;
+  EXPECT_LT(distance(dense(s.belief.P()), expected), 1e-12);
+  EXPECT_LT(distance(s.belief.x().segment<4>(j), mean), 1e-15);
+}
+
+TEST(Belief, ANewLandmarkIsCorrelatedThroughItsRobot)
+{
+  Scene s;
+  const Eigen::MatrixXd P = dense(s.belief.P());
+  const Eigen::Matrix<double, 2, 3> J = randomMatrix(2, 3, s.random);
+  const Gaussian<Point2D> place{{3, 4}, randomCov(2, s.random)};
+  const int slot = s.belief.addLandmark(s.belief.robot(1), place, J);
+  const int n = static_cast<int>(P.rows()), j = s.belief.landmark(slot);
+  ASSERT_EQ(j, n);
+  const Eigen::MatrixXd now = dense(s.belief.P());
+  const Eigen::MatrixXd across = J * P.middleRows<3>(s.belief.robot(1));
+  EXPECT_LT(distance(now.topLeftCorner(n, n), P), 1e-15);
+  EXPECT_LT(distance(now.bottomLeftCorner(2, n), across), 1e-13);
+  EXPECT_LT(distance(now.bottomRightCorner<2, 2>(),
+                     across.middleCols<3>(s.belief.robot(1)) * J.transpose() + place.cov),
+            1e-13);
+  EXPECT_EQ(s.belief.x()[j], 3);
+  EXPECT_EQ(s.belief.x()[j + 1], 4);
+}
+
+TEST(Belief, TargetsComeAndGoWithoutAChangeOfTheRest)
+{
+  Scene s;
+  const int l = s.belief.landmark(2);
+  const Matrix2 before = s.belief.P().block<2, 2>(l, l);
+  const double correlation = s.belief.P()(l, 1);
+  std::vector<int> slots;
+  for (int k = 0; k < 6; ++k) slots.push_back(s.belief.addTarget());
+  for (const int slot : slots)
+    s.belief.set(s.belief.target(slot), Eigen::VectorXd::Ones(4), Eigen::MatrixXd::Identity(4, 4));
+  s.belief.removeTarget(slots[3]);
+  const int now = s.belief.landmark(2);
+  EXPECT_GT(now, l);
+  EXPECT_EQ(s.belief.P()(now, 1), correlation);
+  EXPECT_EQ(distance(s.belief.P().block<2, 2>(now, now), before), 0);
+  EXPECT_EQ(s.belief.P()(s.belief.target(slots[3]), s.belief.target(slots[3])), 0);
+  EXPECT_EQ(s.belief.addTarget(), slots[3]);
+}
+
+TEST(Belief, AFreedLandmarkSlotIsUsedAgain)
+{
+  Scene s;
+  const int n = s.belief.P().size();
+  s.belief.removeLandmark(1);
+  EXPECT_EQ(s.addLandmark(0), 1);
+  EXPECT_EQ(s.belief.P().size(), n);
+  EXPECT_GT(math::smallestEigenvalue(dense(s.belief.P())), 0);
+}
+
+TEST(Belief, StaysPositiveDefiniteOverManyPreciseUpdates)
+{
+  Scene s;
+  for (int k = 0; k < 2000; ++k)
+  {
+    SightingRows row = randomRows(s.belief.robot(k % 2), s.belief.landmark(k % 5), s.random);
+    row.variance = Vector2(1e-6, 1e-6);
+    s.belief.update({row});
+    Eigen::MatrixXd Q = 1e-4 * Eigen::MatrixXd::Identity(3, 3);
+    s.belief.move(s.belief.robot(k % 2), s.belief.x().segment<3>(s.belief.robot(k % 2)),
+                  Eigen::MatrixXd::Identity(3, 3), Q);
+  }
+  EXPECT_GT(math::smallestEigenvalue(dense(s.belief.P())), -1e-12);
+}
+}  // namespace slamot::filters::ekf
