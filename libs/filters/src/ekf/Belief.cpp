@@ -164,7 +164,8 @@ void Belief::update(const std::vector<SightingRows>& rows)
   Eigen::MatrixXd U = timesH(rest_->phi);
   llt.matrixL().solveInPlace(U);
   rest_->take(U, nu);
-  rest_->phi.noalias() -= W_ * U;
+  addProduct(-1, ReadOnly::of(W_), ReadOnly::transposeOf(U), rest_->phi.data(),
+             rest_->phi.outerStride(), false);
 }
 
 Eigen::MatrixXd Belief::product(const Rows& H) const

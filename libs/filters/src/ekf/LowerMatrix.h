@@ -1,5 +1,7 @@
 #pragma once
 
+#include "addProduct.h"
+
 #include <Eigen/Core>
 #include <algorithm>
 
@@ -87,7 +89,12 @@ class LowerMatrix
   /// Adds sign V Vᵀ.
   void update(const Eigen::MatrixXd& V, double sign)
   {
-    data_.topLeftCorner(n_, n_).selfadjointView<Eigen::Lower>().rankUpdate(V, sign);
+    addProduct(sign, ReadOnly::of(V), ReadOnly::of(V), data_.data(), data_.outerStride(), true);
+  }
+  /// Takes A Bᵀ off, which must be symmetric.
+  void subtract(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B)
+  {
+    addProduct(-1, ReadOnly::of(A), ReadOnly::of(B), data_.data(), data_.outerStride(), true);
   }
   LowerMatrix& operator*=(double factor)
   {
@@ -95,7 +102,6 @@ class LowerMatrix
     return *this;
   }
 
-  [[nodiscard]] auto lower() { return data_.topLeftCorner(n_, n_); }
   [[nodiscard]] auto diagonal() const { return data_.diagonal().head(n_); }
 
  private:

@@ -54,7 +54,7 @@ void Belief::Rest::spread(const Eigen::VectorXd& local, const LowerMatrix& local
   const Eigen::Index before = P.size();
   const Eigen::MatrixXd change = acrossA * psi.selfadjointView<Eigen::Lower>();
   x += acrossA * theta;
-  P.lower().triangularView<Eigen::Lower>() -= change * acrossA.transpose();
+  P.subtract(change, acrossA);
   P *= scale;
   P.grow(n);
   x.conservativeResize(n);

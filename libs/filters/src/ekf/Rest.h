@@ -17,7 +17,8 @@ struct Belief::Rest
   void take(const Eigen::MatrixXd& U, const Eigen::VectorXd& nu)
   {
     theta.noalias() += U.transpose() * nu;
-    psi.selfadjointView<Eigen::Lower>().rankUpdate(U.transpose(), 1 / scale);
+    const ReadOnly Ut = ReadOnly::transposeOf(U);
+    addProduct(1 / scale, Ut, Ut, psi.data(), psi.outerStride(), true);
   }
   /// Adds B's places to tr(E P Eᵀ) and Wᵀ EᵀE W, with rows = H Phi.
   void addTo(const Eigen::MatrixXd& rows, double& trace, Eigen::MatrixXd& gram);
