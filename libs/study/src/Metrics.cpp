@@ -18,6 +18,7 @@ struct Run
 {
   const eval::Record& record;
   const eval::Evaluation& evaluation;
+  const MessageFigures* messages = nullptr;
 };
 
 double distance(const StepError& s)
@@ -175,6 +176,11 @@ Value pairs(const Run& r, std::optional<int> eval::AssociationCounts::*which)
   return number((*r.evaluation.association).*which);
 }
 
+std::function<Value(const Run&)> exchanged(double MessageFigures::*which)
+{
+  return [which](const Run& r) { return r.messages ? Value(r.messages->*which) : std::nullopt; };
+}
+
 struct Entry
 {
   Metric metric;
@@ -239,6 +245,12 @@ const std::vector<Entry>& entries()
        [](const Run& r) { return pairs(r, &eval::AssociationCounts::correct); }},
       {{"pairs_wrong", "sightings paired wrongly", 2},
        [](const Run& r) { return pairs(r, &eval::AssociationCounts::wrong); }},
+      {{"messages_sent", "messages sent", 1}, exchanged(&MessageFigures::sent)},
+      {{"message_bytes", "bytes sent", 0}, exchanged(&MessageFigures::bytes)},
+      {{"messages_fused", "messages fused", 1}, exchanged(&MessageFigures::fused)},
+      {{"candidates_fused", "of them with a sighting", 1}, exchanged(&MessageFigures::candidates)},
+      {{"candidates_wrong", "of these wrong", 3},
+       [](const Run& r) { return r.messages ? r.messages->wrong : std::nullopt; }},
   };
   return list;
 }
@@ -265,10 +277,26 @@ std::optional<std::size_t> metricByName(const std::string& name)
 }
 
 std::vector<std::optional<double>> measure(const eval::Record& record,
-                                           const eval::Evaluation& evaluation)
+                                           const eval::Evaluation& evaluation,
+                                           const MessageFigures* messages)
 {
   std::vector<std::optional<double>> out;
-  for (const Entry& e : entries()) out.push_back(e.value({record, evaluation}));
+  for (const Entry& e : entries()) out.push_back(e.value({record, evaluation, messages}));
+  return out;
+}
+
+std::vector<std::optional<double>> meanOf(
+    const std::vector<std::vector<std::optional<double>>>& robots)
+{
+  std::vector<std::optional<double>> out(entries().size());
+  for (std::size_t m = 0; m < out.size(); ++m)
+  {
+    double sum = 0;
+    int count = 0;
+    for (const auto& robot : robots)
+      if (robot[m]) sum += *robot[m], ++count;
+    if (count > 0) out[m] = sum / count;
+  }
   return out;
 }
 }  // namespace slamot::study

@@ -1,5 +1,6 @@
 #include <slamot/study/Trial.h>
 
+#include <slamot/core/Error.h>
 #include <slamot/core/FilterRegistry.h>
 #include <slamot/core/Odometry.h>
 #include <slamot/mrpt/RawlogSource.h>
@@ -33,8 +34,11 @@ core::Config configOf(const ConfigFile& file, const StudySpec& spec, const Cell&
 class ModelledWorld : public core::Source
 {
  public:
-  ModelledWorld(const sim::Scenario& scenario, std::uint64_t seed, const core::OdometryModel& model)
-      : world_(scenario, seed), dt_(scenario.dt), model_(model)
+  ModelledWorld(const sim::Scenario& scenario, std::uint64_t seed, const core::OdometryModel& model,
+                int robot)
+      : world_(scenario, seed, sim::World::Sightings::kAsRead, robot),
+        dt_(scenario.dt),
+        model_(model)
   {
   }
 
@@ -54,30 +58,34 @@ class ModelledWorld : public core::Source
   core::OdometryModel model_;
 };
 
-core::Starts openWorld(const StudySpec& spec, const Cell& cell, std::uint64_t seed,
-                       const core::OdometryModel& odometry, Trial& trial)
+void openWorld(const StudySpec& spec, const Cell& cell, std::uint64_t seed, bool isTeam,
+               const core::OdometryModel& odometry, Trial& trial)
 {
   core::Config config = configOf(spec.scenario, spec, cell);
   const auto scenario = sim::Scenario::from(config);
   config.requireAllRead();
-  auto world = std::make_unique<ModelledWorld>(scenario, seed, odometry);
-  trial.truth = [w = world.get()]() -> const eval::Truth& { return w->truth(); };
   trial.effective = config.effectiveText();
-  core::Starts starts = world->starts();
-  trial.source = std::move(world);
-  return starts;
+  const std::size_t robots = isTeam ? scenario.robots.size() : 1;
+  for (std::size_t r = 0; r < robots; ++r)
+  {
+    auto world = std::make_unique<ModelledWorld>(scenario, seed, odometry, static_cast<int>(r));
+    Trial::Robot robot;
+    robot.truth = [w = world.get()]() -> const eval::Truth& { return w->truth(); };
+    robot.starts = world->starts();
+    robot.source = std::move(world);
+    trial.robots.push_back(std::move(robot));
+  }
 }
 
-core::Starts openRawlog(const std::string& path, const RawlogSource::Options& options, Trial& trial)
+void openRawlog(const std::string& path, const RawlogSource::Options& options, Trial& trial)
 {
   auto log = std::make_unique<RawlogSource>(path, options);
   const std::string folder = results::truthFolder(path);
   auto truth = std::make_shared<const eval::Truth>(results::loadTruth(folder));
-  trial.truth = [truth]() -> const eval::Truth& { return *truth; };
   trial.effective = hashOfFiles(path, folder);
   core::Starts starts = log->starts();
-  trial.source = std::move(log);
-  return starts;
+  trial.robots.push_back(
+      {std::move(log), [truth]() -> const eval::Truth& { return *truth; }, starts});
 }
 
 eval::Align alignOf(const std::string& name, const core::Starts& starts)
@@ -106,29 +114,54 @@ void readRunSection(core::Config& config)
 }
 }  // namespace
 
-Trial openTrial(const StudySpec& spec, const Cell& cell, const Method& method, std::uint64_t seed)
+namespace
 {
-  Trial trial;
-  core::Config config = configOf(method.file, spec, cell);
+void makeFilter(core::Config& config, std::uint64_t seed, Trial& trial)
+{
   const std::string name = core::methodOf(config);
-  const auto options = RawlogSource::Options::from(config);
-  readRunSection(config);
   core::FilterContext context;
-  context.starts =
-      startsOf(config, spec.simulated ? openWorld(spec, cell, seed, options.odometry, trial)
-                                      : openRawlog(spec.rawlogs[cell.rawlog], options, trial));
+  context.starts = trial.robots[0].starts = startsOf(config, trial.robots[0].starts);
   context.seed = seed;
   // The one method that is told the truth: the bound that others are held against.
   if (name == "true-pose-target")
-    context.truePose = [truth = trial.truth](double time) -> std::optional<Pose2D>
+    context.truePose = [truth = trial.robots[0].truth](double time) -> std::optional<Pose2D>
     {
       const auto pose = truth().robot.at(time);
       if (!pose) return std::nullopt;
       return pose->pose;
     };
   trial.filter = core::FilterRegistry::instance().make(name, config, context);
+}
+
+void makeTeam(core::Config& config, std::uint64_t seed, Trial& trial)
+{
+  std::vector<team::Log> logs;
+  for (std::size_t r = 0; r < trial.robots.size(); ++r)
+    logs.push_back({static_cast<int>(r), trial.robots[r].source.get(), trial.robots[r].starts});
+  trial.team = std::make_unique<team::Team>(config, logs, seed, 1);
+}
+}  // namespace
+
+Trial openTrial(const StudySpec& spec, const Cell& cell, const Method& method, std::uint64_t seed)
+{
+  Trial trial;
+  core::Config config = configOf(method.file, spec, cell);
+  const auto options = RawlogSource::Options::from(config);
+  const bool isTeam = config.has("team");
+  readRunSection(config);
+  if (isTeam && !spec.simulated)
+    throw core::Error(core::ExitStatus::kConfig, method.file.name + " [team]",
+                      "a study of a team needs a scenario", "use slamot team for rawlogs");
+  if (spec.simulated)
+    openWorld(spec, cell, seed, isTeam, options.odometry, trial);
+  else
+    openRawlog(spec.rawlogs[cell.rawlog], options, trial);
+  if (isTeam)
+    makeTeam(config, seed, trial);
+  else
+    makeFilter(config, seed, trial);
   config.requireAllRead(core::FilterRegistry::instance().names());
-  trial.evaluation.align = alignOf(spec.align, context.starts);
+  trial.evaluation.align = alignOf(spec.align, trial.robots[0].starts);
   trial.effective += config.effectiveText() + "align = " + spec.align;
   return trial;
 }

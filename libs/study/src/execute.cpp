@@ -1,7 +1,6 @@
 #include <slamot/study/execute.h>
 
 #include <slamot/core/Error.h>
-#include <slamot/eval/Recorder.h>
 #include <slamot/study/Metrics.h>
 #include <slamot/study/Trial.h>
 
@@ -31,10 +30,7 @@ void measureRun(const Plan& plan, const Run& run, RunRecord& record)
   const Group& group = plan.groups[run.group];
   Trial trial =
       openTrial(plan.spec, plan.cells[group.cell], plan.spec.methods[group.method], run.seed);
-  eval::Recorder recorder(*trial.filter);
-  core::run(*trial.source, *trial.filter, {&recorder});
-  const auto evaluation = eval::evaluate(recorder.record(), trial.truth(), trial.evaluation);
-  record.metrics = measure(recorder.record(), evaluation);
+  record.metrics = runTrial(trial);
   for (std::size_t i = 0; i < record.metrics.size(); ++i)
     if (record.metrics[i] && !std::isfinite(*record.metrics[i]))
       throw core::Error(core::ExitStatus::kInternal, metrics()[i].name, "is not finite");

@@ -23,7 +23,22 @@ struct Metric
 /// The place of a metric by its name; none if there is no such metric.
 [[nodiscard]] std::optional<std::size_t> metricByName(const std::string& name);
 
+/// What one robot of a team exchanged.
+struct MessageFigures
+{
+  double sent = 0, bytes = 0;   ///< messages, and all their bytes
+  double fused = 0;             ///< messages of others that changed its estimate
+  double candidates = 0;        ///< of them with a sighting of this robot
+  std::optional<double> wrong;  ///< of these sightings, those that were not of this robot
+};
+
 /// The metrics of a run, in the order of metrics(); absent is what has no truth or does not apply.
+/// \param messages of a robot in a team, else null
 [[nodiscard]] std::vector<std::optional<double>> measure(const eval::Record& record,
-                                                         const eval::Evaluation& evaluation);
+                                                         const eval::Evaluation& evaluation,
+                                                         const MessageFigures* messages = nullptr);
+
+/// Each metric's mean over the robots of a team that have it.
+[[nodiscard]] std::vector<std::optional<double>> meanOf(
+    const std::vector<std::vector<std::optional<double>>>& robots);
 }  // namespace slamot::study

@@ -1,0 +1,69 @@
+#include <slamot/eval/Alignment.h>
+#include <slamot/eval/Recorder.h>
+#include <slamot/study/Metrics.h>
+#include <slamot/study/Trial.h>
+#include <slamot/team/teamResults.h>
+
+namespace slamot::study
+{
+namespace
+{
+using Values = std::vector<std::optional<double>>;
+
+MessageFigures figuresOf(const team::Team& team, std::size_t robot, const eval::Truth& own,
+                         const std::map<int, const eval::Truth*>& truths)
+{
+  const fusion::Member& member = *team.member(robot);
+  const team::FusionSummary fusion = team::summarise(team.events(robot), own, truths);
+  MessageFigures out;
+  out.sent = static_cast<double>(member.sent());
+  out.bytes = static_cast<double>(member.bytesSent());
+  out.fused = static_cast<double>(fusion.fused);
+  out.candidates = static_cast<double>(fusion.candidates);
+  if (fusion.wrongCandidates) out.wrong = static_cast<double>(*fusion.wrongCandidates);
+  return out;
+}
+
+Values runTeam(Trial& trial)
+{
+  team::Team& team = *trial.team;
+  std::vector<std::unique_ptr<eval::Recorder>> recorders;
+  std::vector<std::vector<core::Sink*>> sinks;
+  for (std::size_t r = 0; r < team.size(); ++r)
+  {
+    recorders.push_back(std::make_unique<eval::Recorder>(team.filter(r)));
+    sinks.push_back({recorders.back().get()});
+  }
+  team.run(sinks);
+  std::vector<eval::RunWithTruth> runs;
+  std::map<int, const eval::Truth*> truths;
+  for (std::size_t r = 0; r < team.size(); ++r)
+  {
+    runs.push_back({&recorders[r]->record(), &trial.robots[r].truth()});
+    truths[static_cast<int>(r)] = runs.back().truth;
+  }
+  // One map frame, one alignment.
+  const auto frame = eval::alignment(runs, trial.evaluation.align, trial.evaluation.maxTruthGap);
+  std::vector<Values> robots;
+  for (std::size_t r = 0; r < team.size(); ++r)
+  {
+    const auto evaluation =
+        eval::evaluate(*runs[r].record, *runs[r].truth, trial.evaluation, frame.value_or(Pose2D()));
+    MessageFigures figures;
+    if (team.member(r)) figures = figuresOf(team, r, *runs[r].truth, truths);
+    robots.push_back(measure(*runs[r].record, evaluation, team.member(r) ? &figures : nullptr));
+  }
+  return meanOf(robots);
+}
+}  // namespace
+
+Values runTrial(Trial& trial)
+{
+  if (trial.team) return runTeam(trial);
+  eval::Recorder recorder(*trial.filter);
+  core::run(*trial.robots[0].source, *trial.filter, {&recorder});
+  const auto evaluation =
+      eval::evaluate(recorder.record(), trial.robots[0].truth(), trial.evaluation);
+  return measure(recorder.record(), evaluation);
+}
+}  // namespace slamot::study
