@@ -2,6 +2,7 @@
 #include <slamot/core/FilterRegistry.h>
 #include <slamot/eval/Alignment.h>
 #include <slamot/eval/Recorder.h>
+#include <slamot/fusion/mates.h>
 #include <slamot/mrpt/RawlogSource.h>
 #include <slamot/results/Report.h>
 #include <slamot/results/ResultFolder.h>
@@ -9,6 +10,7 @@
 #include <slamot/results/StepTimer.h>
 #include <slamot/results/TruthFiles.h>
 #include <slamot/results/hints.h>
+#include <slamot/team/teamResults.h>
 
 #include <cstdio>
 #include <exception>
@@ -17,6 +19,7 @@
 #include "Command.h"
 #include "Progress.h"
 #include "laserMaps.h"
+#include "salvage.h"
 #include "sceneOf.h"
 
 namespace slamot::apps
@@ -41,16 +44,14 @@ core::Config readConfig(const RunCommand& o)
   for (const std::string& assignment : o.common.set) config.set(assignment);
   if (o.common.seedGiven) config.set("run", "seed", std::to_string(o.common.seed));
   if (!o.align.empty()) config.set("run", "align", o.align);
+  if (config.has("team")) config.set("run", "method", team::methodAlone(config));
   return config;
 }
 
 std::unique_ptr<core::Filter> makeFilter(core::Config& config, const results::RunPlan& plan,
-                                         int threads, const eval::Truth& truth)
+                                         int number, int threads, const eval::Truth& truth)
 {
-  core::FilterContext context;
-  context.starts = plan.starts;
-  context.seed = plan.seed;
-  context.threads = threads;
+  core::FilterContext context = team::contextOf(plan.starts, number, plan.seed, threads);
   // The one method that is told the truth: the bound that others are held against.
   if (plan.method == "true-pose-target" && !truth.robot.empty())
     context.truePose = [&truth](double time)
@@ -60,7 +61,9 @@ std::unique_ptr<core::Filter> makeFilter(core::Config& config, const results::Ru
     };
   const core::FilterRegistry& registry = core::FilterRegistry::instance();
   auto filter = registry.make(plan.method, config, context);
-  config.requireAllRead(registry.names());
+  auto others = registry.names();
+  if (config.has("team")) others.push_back("dds");  // for the same robot live
+  config.requireAllRead(others);
   return filter;
 }
 
@@ -76,16 +79,6 @@ void warn(const std::string& text)
   std::fprintf(stderr, "slamot: warning: %s\n", text.c_str());
 }
 
-// Why the log ended early, and what was used of it.
-std::string salvaged(const std::string& truncation, const eval::Record& record)
-{
-  const double span = record.steps.empty() ? 0 : record.steps.back().time - record.steps[0].time;
-  char text[96];
-  std::snprintf(text, sizeof text, "; its first %zu steps, %.2f s, were used", record.steps.size(),
-                span);
-  return truncation.substr(0, truncation.rfind("; ")) + text;
-}
-
 /// One run, from the opened log to its result folder.
 class Run
 {
@@ -99,14 +92,16 @@ class Run
         source_(o.dataset, sourceOptions()),
         plan_(results::planRun(config_, source_.starts())),
         truth_(results::loadTruth(results::truthFolder(o.dataset))),
-        filter_(makeFilter(config_, plan_, o.common.threads, truth_))
+        mateLabel_(readMateLabel()),
+        filter_(makeFilter(config_, plan_, number(), o.common.threads, truth_))
   {
     results::requirePlaceFor(folder_);
   }
 
   ExitStatus execute()
   {
-    results::StepTimer timer(source_);
+    fusion::WithoutMates source(source_, mateLabel_);
+    results::StepTimer timer(source);
     eval::Recorder recorder(*filter_, {true});
     std::exception_ptr failure;
     bool wasInterrupted = false;
@@ -134,6 +129,17 @@ class Run
     mrpt::RawlogSource::Options options = mrpt::RawlogSource::Options::from(config_);
     options.salvage = o_.salvage;
     return options;
+  }
+
+  // With a section [team] this is one robot of a team, alone: as slamot team with one log.
+  [[nodiscard]] std::string readMateLabel()
+  {
+    return config_.has("team") ? fusion::TeamOptions::from(config_, plan_.seed).mateLabel : "";
+  }
+  [[nodiscard]] int number() const
+  {
+    const std::string name = std::filesystem::path(o_.dataset).stem().string();
+    return config_.has("team") ? team::robotNumbers({name}).front() : 0;
   }
 
   void write(const eval::Record& record, const results::Timing& timing) const
@@ -167,7 +173,7 @@ class Run
   {
     if (wasInterrupted) return ExitStatus::kInterrupted;
     if (source_.truncation().empty()) return ExitStatus::kDone;
-    std::fprintf(stderr, "slamot: error: %s\n", salvaged(source_.truncation(), record).c_str());
+    tellSalvaged(source_.truncation(), record);
     return ExitStatus::kTruncated;
   }
 
@@ -177,6 +183,7 @@ class Run
   mrpt::RawlogSource source_;
   results::RunPlan plan_;
   eval::Truth truth_;
+  std::string mateLabel_;  // of blobs that the filter is not to see; empty: it sees all
   std::unique_ptr<core::Filter> filter_;
 };
 }  // namespace

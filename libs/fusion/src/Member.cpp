@@ -1,6 +1,6 @@
 #include <slamot/fusion/Member.h>
 
-#include <algorithm>
+#include <slamot/fusion/mates.h>
 
 namespace slamot::fusion
 {
@@ -52,12 +52,7 @@ core::Update Member::process(core::Step& step)
 {
   last_ = step;
   last_.lasers.clear();
-  if (step.blobs && !options_.mateLabel.empty())
-  {
-    auto& blobs = step.blobs->blobs;
-    const auto isMate = [&](const core::Blob& b) { return b.label == options_.mateLabel; };
-    blobs.erase(std::remove_if(blobs.begin(), blobs.end(), isMate), blobs.end());
-  }
+  takeOutMates(step, options_.mateLabel);
   core::Update out = filter_.process(step);
   ++steps_;
   return out;

@@ -48,13 +48,26 @@ std::vector<std::string> methodsOf(core::Config& config, std::size_t robots)
   return out;
 }
 
-core::FilterContext contextOf(const core::Starts& starts, std::size_t robot, std::uint64_t seed,
+std::string methodAlone(core::Config& config)
+{
+  core::Params p(config, "team");
+  const auto names = p.has("methods") ? p.list("methods") : std::vector<std::string>();
+  if (names.empty() || config.has("run", "method")) return core::methodOf(config);
+  for (const std::string& name : names)
+    if (name != names.front())
+      p.fail("methods", "names several filters, but this is one robot",
+             "name its own: --set run.method=NAME");
+  config.set("run", "method", names.front());
+  return core::methodOf(config);
+}
+
+core::FilterContext contextOf(const core::Starts& starts, int number, std::uint64_t seed,
                               int threads)
 {
   core::FilterContext out;
   out.starts = starts;
   // Filters that draw at random must not draw the same.
-  out.seed = seed + 1'000'003 * robot;
+  out.seed = seed + 1'000'003 * static_cast<std::uint64_t>(number);
   out.threads = threads;
   return out;
 }
@@ -77,7 +90,7 @@ Team::Team(core::Config& config, const std::vector<Log>& logs, std::uint64_t see
 {
   std::vector<core::FilterContext> contexts;
   for (std::size_t r = 0; r < logs.size(); ++r)
-    contexts.push_back(contextOf(logs[r].starts, r, seed, threads));
+    contexts.push_back(contextOf(logs[r].starts, logs[r].number, seed, threads));
   methods_ = methodsOf(config, logs.size());
   if (options_.centralized)
     centralize(config, contexts, logs);

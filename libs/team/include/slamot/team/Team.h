@@ -56,8 +56,8 @@ class Team
   fusion::Radio radio_;
 };
 
-/// What a filter of the robot at this place in the team is made from.
-[[nodiscard]] core::FilterContext contextOf(const core::Starts& starts, std::size_t robot,
+/// What the filter of the robot of this number is made from: the same in any team, and alone.
+[[nodiscard]] core::FilterContext contextOf(const core::Starts& starts, int number,
                                             std::uint64_t seed, int threads);
 
 /// A filter, and itself as one that can exchange estimates.
@@ -73,4 +73,8 @@ struct MemberFilter
 /// The methods of a team's robots, as the configuration names them.
 /// \throws core::Error (kConfig) if it names neither one nor as many as there are robots.
 [[nodiscard]] std::vector<std::string> methodsOf(core::Config& config, std::size_t robots);
+
+/// The method of a team's robot that runs alone: that of [run], else the one of all in [team].
+/// \throws core::Error (kConfig) if there are several.
+[[nodiscard]] std::string methodAlone(core::Config& config);
 }  // namespace slamot::team
