@@ -5,6 +5,7 @@
 #include <slamot/results/Summary.h>
 #include <slamot/results/TextFile.h>
 #include <slamot/results/TruthFiles.h>
+#include <slamot/team/savedTeam.h>
 
 #include <charconv>
 #include <cstdio>
@@ -33,14 +34,13 @@ bool isEmpty(const eval::Truth& t)
 }
 
 // PREFIX may be the folder of truth, the log it goes with, or one trajectory of the robot.
-eval::Truth findTruth(const EvaluateCommand& o)
+eval::Truth findTruth(const std::string& result, std::string prefix)
 {
-  std::string prefix = o.truth;
   if (prefix.empty())
-    if (const auto summary = results::loadSummary(o.result)) prefix = summary->dataset;
+    if (const auto summary = results::loadSummary(result)) prefix = summary->dataset;
   if (prefix.empty())
-    throw Error(ExitStatus::kConfig, "evaluate " + o.result,
-                "which truth it goes with is not known", "give --truth PREFIX");
+    throw Error(ExitStatus::kConfig, "evaluate " + result, "which truth it goes with is not known",
+                "give --truth PREFIX");
   eval::Truth truth;
   if (fs::is_regular_file(prefix) && fs::path(prefix).extension() == ".tum")
     truth.robot = results::loadTum(prefix);
@@ -75,25 +75,62 @@ eval::Align alignOf(const EvaluateCommand& o)
       core::Params(ini, "run").choice("align", eval::alignNames(), "first-pose"));
 }
 
+void tell(const EvaluateCommand& o, const std::string& json, const std::string& table)
+{
+  if (!o.output.empty()) results::writeWhole(o.output, json);
+  std::printf("%s", o.json ? json.c_str() : table.c_str());
+}
+
+std::string tableOf(const std::string& name, const eval::Record& record, const eval::Evaluation& e)
+{
+  return name + " (align " + eval::nameOf(e.align) + ")\n" + results::summaryTable(record, e, true);
+}
+
+// The robots of a team share one map frame: they are aligned together, once.
+int evaluateTeam(EvaluateCommand o, const std::vector<std::string>& names)
+{
+  if (!o.truth.empty() && names.size() > 1)
+    throw Error(ExitStatus::kConfig, "command line --truth",
+                "is of one robot, but " + o.result + " is of a team",
+                "leave it out, or evaluate a robot's folder in it");
+  std::vector<eval::Record> records;
+  std::vector<eval::Truth> truths;
+  for (const std::string& name : names)
+  {
+    const std::string folder = (fs::path(o.result) / name).string();
+    records.push_back(results::loadRecord(folder));
+    truths.push_back(findTruth(folder, o.truth));
+  }
+  o.options.align = alignOf(o);
+  std::vector<eval::RunWithTruth> runs;
+  for (std::size_t r = 0; r < names.size(); ++r) runs.push_back({&records[r], &truths[r]});
+  const auto evaluations = eval::evaluateTogether(runs, o.options);
+  std::vector<std::string> each;
+  std::string table;
+  for (std::size_t r = 0; r < names.size(); ++r)
+  {
+    each.push_back(results::evaluationJson(records[r], evaluations[r]));
+    table += tableOf((fs::path(o.result) / names[r]).string(), records[r], evaluations[r]);
+  }
+  tell(o, team::evaluationsJson(names, each), table);
+  return static_cast<int>(ExitStatus::kDone);
+}
+
 int evaluate(EvaluateCommand o)
 {
   const bool isFolder = fs::is_directory(o.result);
   if (!isFolder && !fs::exists(o.result))
     throw Error(ExitStatus::kUnreadable, o.result, "is not there",
                 "give a result folder or a TUM file");
+  if (const auto names = team::robotsIn(o.result); !names.empty())
+    return evaluateTeam(std::move(o), names);
   const eval::Record record =
       isFolder ? results::loadRecord(o.result) : results::loadTumRecord(o.result);
-  eval::Truth truth = findTruth(o);
+  eval::Truth truth = findTruth(o.result, o.truth);
   if (!isFolder) takeTargetForRobot(o.result, truth);
   o.options.align = alignOf(o);
   const eval::Evaluation evaluation = eval::evaluate(record, truth, o.options);
-  const std::string json = results::evaluationJson(record, evaluation);
-  if (!o.output.empty()) results::writeWhole(o.output, json);
-  if (o.json)
-    std::printf("%s", json.c_str());
-  else
-    std::printf("%s (align %s)\n%s", o.result.c_str(), eval::nameOf(evaluation.align).c_str(),
-                results::summaryTable(record, evaluation, true).c_str());
+  tell(o, results::evaluationJson(record, evaluation), tableOf(o.result, record, evaluation));
   return static_cast<int>(ExitStatus::kDone);
 }
 }  // namespace
@@ -103,7 +140,7 @@ void addEvaluate(CLI::App& app, int& status)
   auto o = std::make_shared<EvaluateCommand>();
   CLI::App* command = app.add_subcommand(
       "evaluate",
-      "Errors and consistency of a result folder, or a TUM file, against truth.\n"
+      "Errors and consistency of a result folder, also a team's, or a TUM file, against truth.\n"
       "Example: slamot evaluate slamot-out/rbpf-slamot-experiment1 --align rigid");
   command->add_option("result", o->result, "A result folder or a TUM file")
       ->required()

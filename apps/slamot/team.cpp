@@ -18,6 +18,7 @@
 #include "Command.h"
 #include "Progress.h"
 #include "memberResult.h"
+#include "salvage.h"
 
 namespace slamot::apps
 {
@@ -32,6 +33,7 @@ struct TeamCommand
   CommonOptions common;
   std::string config, align;
   std::vector<std::string> datasets;
+  bool salvage = false;
 };
 
 /// One robot's log, and what came of it.
@@ -60,7 +62,8 @@ class TeamRun
     for (const std::string& assignment : o.common.set) config_.set(assignment);
     if (o.common.seedGiven) config_.set("run", "seed", std::to_string(o.common.seed));
     if (!o.align.empty()) config_.set("run", "align", o.align);
-    const auto options = mrpt::RawlogSource::Options::from(config_);
+    auto options = mrpt::RawlogSource::Options::from(config_);
+    options.salvage = o.salvage;
     for (const std::string& path : o.datasets)
       robots_.push_back(std::make_unique<Robot>(path, options));
     requireNames();
@@ -97,14 +100,27 @@ class TeamRun
     for (auto& robot : robots_)
     {
       robot->record = robot->recorder->takeRecord();
+      robot->record.complete = robot->record.complete && robot->source.truncation().empty();
       any = any || !robot->record.steps.empty();
     }
     if (any) write(timer.timing());
     if (failure) std::rethrow_exception(failure);
-    return wasInterrupted ? ExitStatus::kInterrupted : ExitStatus::kDone;
+    return wasInterrupted ? ExitStatus::kInterrupted : conclude();
   }
 
  private:
+  [[nodiscard]] ExitStatus conclude() const
+  {
+    ExitStatus out = ExitStatus::kDone;
+    for (const auto& robot : robots_)
+    {
+      if (robot->source.truncation().empty()) continue;
+      tellSalvaged(robot->source.truncation(), robot->record);
+      out = ExitStatus::kTruncated;
+    }
+    return out;
+  }
+
   void requireNames() const
   {
     std::set<std::string> names;
@@ -173,13 +189,7 @@ class TeamRun
     options.align = plan_.align;
     std::vector<eval::RunWithTruth> runs;
     for (const auto& robot : robots_) runs.push_back({&robot->record, &robot->truth});
-    auto truthFromMap = eval::alignment(runs, options.align, options.maxTruthGap);
-    if (!truthFromMap) options.align = eval::Align::kNone;
-    std::vector<eval::Evaluation> out;
-    for (const auto& robot : robots_)
-      out.push_back(
-          eval::evaluate(robot->record, robot->truth, options, truthFromMap.value_or(Pose2D())));
-    return out;
+    return eval::evaluateTogether(runs, options);
   }
 
   const TeamCommand& o_;
@@ -207,6 +217,7 @@ void addTeam(CLI::App& app, int& status)
   command->add_option("datasets", o->datasets, "A log for each robot, X.robot<number>.rawlog")
       ->required()
       ->type_name("X.rawlog ...");
+  command->add_flag("--salvage", o->salvage, "Use the intact first part of truncated logs");
   command
       ->add_option("--align", o->align,
                    "How errors lay the map over the truth, once for all (default none where all "

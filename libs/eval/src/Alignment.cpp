@@ -89,4 +89,15 @@ std::optional<Pose2D> alignment(const std::vector<RunWithTruth>& runs, Align ali
   }
   return Pose2D();
 }
+
+std::vector<Evaluation> evaluateTogether(const std::vector<RunWithTruth>& runs,
+                                         EvaluationOptions options)
+{
+  const auto truthFromMap = alignment(runs, options.align, options.maxTruthGap);
+  if (!truthFromMap) options.align = Align::kNone;
+  std::vector<Evaluation> out;
+  for (const RunWithTruth& run : runs)
+    out.push_back(evaluate(*run.record, *run.truth, options, truthFromMap.value_or(Pose2D())));
+  return out;
+}
 }  // namespace slamot::eval

@@ -16,6 +16,7 @@ using core::Error;
 using core::ExitStatus;
 
 constexpr const char* kSummary = "summary.json";
+constexpr const char* kTeam = "team.json";  // in its place, in a team's folder
 
 // Without a slash at the end, so that a name can be added.
 fs::path placeOf(const std::string& path)
@@ -44,7 +45,8 @@ void requirePlaceFor(const std::string& path)
   if (fs::exists(place, error))
   {
     const bool free = fs::is_directory(place, error) &&
-                      (fs::is_empty(place, error) || fs::exists(place / kSummary, error));
+                      (fs::is_empty(place, error) || fs::exists(place / kSummary, error) ||
+                       fs::exists(place / kTeam, error));
     if (!free)
       throw Error(ExitStatus::kConfig, path, "is there and is no older result",
                   "give another --output");

@@ -27,4 +27,9 @@ struct RunWithTruth
 /// aligned together, once.  None where times have nothing in common (first-pose: or no heading).
 [[nodiscard]] std::optional<Pose2D> alignment(const std::vector<RunWithTruth>& runs, Align align,
                                               double maxTruthGap);
+
+/// Each robot's evaluation, all with one alignment: that of alignment(), or none where it gives
+/// none.
+[[nodiscard]] std::vector<Evaluation> evaluateTogether(const std::vector<RunWithTruth>& runs,
+                                                       EvaluationOptions options);
 }  // namespace slamot::eval
