@@ -35,9 +35,16 @@ struct RobotCommand
   CommonOptions common;
   std::string config, dataset, align, team;
   std::optional<int> number;
+  std::optional<double> wait;  // [s]
   bool lockstep = false;
   live::RealTimeOptions timing;
 };
+
+void printFusion(const fusion::FusionEvent& e)
+{
+  std::fprintf(stderr, "slamot: %.2f s: message of robot %d, %.2f s: %s\n", e.time,
+               e.receipt.sender, e.sent, fusion::name(e.receipt.outcome));
+}
 
 /// One live run, from the opened log to its result folder.
 class LiveRun
@@ -134,8 +141,13 @@ class LiveRun
       progress.finish();
       std::fprintf(stderr, "slamot: %s\n", text.c_str());
     };
-    if (o_.lockstep) return live::runLockstep(robot_, radio, network, live_, network_.silenceS);
+    if (o_.common.verbose) live_.onFusion = printFusion;
+    if (o_.lockstep)
+      return live::runLockstep(
+          robot_, radio, network, live_,
+          {o_.wait.value_or(live::LockstepOptions().waitS), network_.silenceS});
     live::RealTimeOptions timing = o_.timing;
+    timing.waitS = o_.wait.value_or(0);
     timing.maxAge = team_.maxAge;
     return live::runRealTime(robot_, radio, network, live_, timing);
   }
@@ -178,8 +190,9 @@ class LiveRun
   fusion::TeamRobot robot_;
 };
 
-void addTiming(CLI::App& command, live::RealTimeOptions& timing)
+void addTiming(CLI::App& command, RobotCommand& o)
 {
+  live::RealTimeOptions& timing = o.timing;
   command.add_option("--speed", timing.speed, "Replay so many times as fast (default 1)")
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("FACTOR");
@@ -193,8 +206,10 @@ void addTiming(CLI::App& command, live::RealTimeOptions& timing)
                   "What time in the log it is then [s] (default that of the log's first step)")
       ->type_name("LOGTIME");
   command
-      .add_option("--wait", timing.waitS,
-                  "Wait for the others before the clock begins [s], at most")
+      .add_option(
+          "--wait", o.wait,
+          "Wait for the others to be there before the clock begins [s], at most (default 0; "
+          "60 with --lockstep)")
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
 }
@@ -223,8 +238,8 @@ void addRobot(CLI::App& app, int& status)
       ->type_name("N");
   command->add_flag("--lockstep", o->lockstep,
                     "Step by step with the others, by the logs' clock: results as slamot team's");
-  addTiming(*command, o->timing);
-  for (const char* name : {"--speed", "--start-at", "--clock-zero", "--wait"})
+  addTiming(*command, *o);
+  for (const char* name : {"--speed", "--start-at", "--clock-zero"})
     command->get_option("--lockstep")->excludes(command->get_option(name));
   command
       ->add_option("--align", o->align,

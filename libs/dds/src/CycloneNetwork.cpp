@@ -26,7 +26,7 @@ class Reasons
  public:
   static Reasons& instance()
   {
-    static Reasons reasons;
+    static Reasons& reasons = *new Reasons;  // for good: DDS may log until the very end
     return reasons;
   }
   [[nodiscard]] std::string last()

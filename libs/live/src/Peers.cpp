@@ -4,18 +4,18 @@
 
 namespace slamot::live
 {
-Peers::News Peers::hear(const Beacon& beacon, double wall)
+Peers::News Peers::hear(int sender, std::uint64_t session, double wall)
 {
-  if (beacon.sender == self_) return std::exchange(isDouble_, true) ? News::kNone : News::kDouble;
-  if (team_.count(beacon.sender) == 0)
-    return strangers_.insert(beacon.sender).second ? News::kStranger : News::kNone;
-  Peer& peer = peers_[beacon.sender];
+  if (sender == self_) return std::exchange(isDouble_, true) ? News::kNone : News::kDouble;
+  if (team_.count(sender) == 0)
+    return strangers_.insert(sender).second ? News::kStranger : News::kNone;
+  Peer& peer = peers_[sender];
   const bool isFirst = peer.sessions == 0;
   // What is left of an earlier session does not count.
-  if (!isFirst && beacon.session < peer.session) return News::kNone;
-  const bool isNew = beacon.session > peer.session || isFirst;
+  if (!isFirst && session < peer.session) return News::kNone;
+  const bool isNew = session > peer.session || isFirst;
   if (isNew) ++peer.sessions;
-  peer.session = beacon.session;
+  peer.session = session;
   peer.heardAt = wall;
   const bool wasSilent = std::exchange(peer.isSilent, false);
   if (isNew && !isFirst) return News::kRestarted;

@@ -35,12 +35,12 @@ class LockstepRun
 {
  public:
   LockstepRun(fusion::TeamRobot& robot, fusion::Radio& radio, Network& network,
-              const LiveOptions& options, double silence)
+              const LiveOptions& options, const LockstepOptions& limits)
       : robot_(robot),
         radio_(radio),
         network_(network),
         o_(options),
-        silence_(silence),
+        limits_(limits),
         self_(robot.member->number()),
         topic_(network.open("steps", Delivery::kAll))
   {
@@ -67,7 +67,7 @@ class LockstepRun
     }
     finish(!result_.interrupted);
     // Whoever ends must not take with it what others still wait for.
-    flush(result_.interrupted ? kFarewell : silence_);
+    flush(result_.interrupted ? kFarewell : limits_.silenceS);
     for (const auto& [number, other] : others_)
       result_.sessionsHeard[number] = other.session ? 1 : 0;
     return result_;
@@ -141,7 +141,7 @@ class LockstepRun
       if (late == others_.end()) return true;
       if (late->second.hasLeft) fail(late->first, "ended before its log did");
       if (isStopped()) return false;
-      if (wallTime() - lastNews > silence_)
+      if (wallTime() - lastNews > (late->second.session ? limits_.silenceS : limits_.waitS))
         fail(late->first, late->second.session ? "fell silent" : "was not heard");
       network_.wait(kPatience);
     }
@@ -187,7 +187,11 @@ class LockstepRun
       }
     for (Bytes& bytes : radio_.receive(self_, now_)) robot_.member->hear(std::move(bytes));
     const auto events = robot_.member->settle();
-    robot_.events.insert(robot_.events.end(), events.begin(), events.end());
+    for (const auto& event : events)
+    {
+      if (o_.onFusion) o_.onFusion(event);
+      robot_.events.push_back(event);
+    }
   }
 
   [[noreturn]] void fail(int robot, const std::string& what) const
@@ -201,7 +205,7 @@ class LockstepRun
   fusion::Radio& radio_;
   Network& network_;
   const LiveOptions& o_;
-  double silence_;
+  LockstepOptions limits_;
   int self_;
   std::unique_ptr<Topic> topic_;
   std::map<int, Other> others_;
@@ -213,8 +217,8 @@ class LockstepRun
 }  // namespace
 
 LiveResult runLockstep(fusion::TeamRobot& robot, fusion::Radio& radio, Network& network,
-                       const LiveOptions& options, double silence)
+                       const LiveOptions& options, const LockstepOptions& limits)
 {
-  return LockstepRun(robot, radio, network, options, silence).run();
+  return LockstepRun(robot, radio, network, options, limits).run();
 }
 }  // namespace slamot::live

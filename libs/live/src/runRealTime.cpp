@@ -153,11 +153,16 @@ class RealTimeRun
     {
       const auto decoded = fusion::decode(bytes);
       const auto* const message = std::get_if<fusion::Message>(&decoded);
+      if (message) note(message->sender, message->session);
       radio_.send(message ? message->sender : -1, self_, now, bytes);
     }
     for (Bytes& bytes : radio_.receive(self_, now)) robot_.member->hear(std::move(bytes));
     const auto events = robot_.member->settle();
-    robot_.events.insert(robot_.events.end(), events.begin(), events.end());
+    for (const auto& event : events)
+    {
+      if (o_.onFusion) o_.onFusion(event);
+      robot_.events.push_back(event);
+    }
   }
 
   void exchangeBeacons()
@@ -176,21 +181,30 @@ class RealTimeRun
       tellNews("robot " + std::to_string(silent) + " is silent" + when());
   }
 
-  void hear(const Beacon& beacon, double wall)
+  // Who is there, by beacons and by messages.
+  void note(int sender, std::uint64_t session)
   {
-    const std::string who = "robot " + std::to_string(beacon.sender);
-    const Peers::News news = peers_.hear(beacon, wall);
+    const std::string who = "robot " + std::to_string(sender);
+    const Peers::News news = peers_.hear(sender, session, wallTime());
     if (news == Peers::News::kDouble)
       tellNews("another robot has the number " + std::to_string(self_) + "; give each its own");
     if (news == Peers::News::kStranger) tellNews(who + " is not of the team [dds] team, not heard");
     if (news == Peers::News::kRestarted) tellNews(who + " was started again" + when());
     if (news == Peers::News::kCame) tellNews(who + " is there" + when());
-    if (news == Peers::News::kDouble || news == Peers::News::kStranger || !clock_) return;
-    if (news != Peers::News::kNone && !clock_->canFollow(beacon, wall))
+    if (news == Peers::News::kRestarted || news == Peers::News::kCame) isNew_.insert(sender);
+  }
+
+  void hear(const Beacon& beacon, double wall)
+  {
+    note(beacon.sender, beacon.session);
+    if (!peers_.isOfTeam(beacon.sender) || !clock_) return;
+    const std::string who = "robot " + std::to_string(beacon.sender);
+    const bool isNew = isNew_.erase(beacon.sender) > 0;
+    if (isNew && !clock_->canFollow(beacon, wall))
       tellNews(who + " has another clock (speed, or times in its log), not followed");
     // Whoever is new or behind need not wait for this one's clock.
     const double apart = clock_->at(wall) - beacon.clock.value_or(0);
-    if (news != Peers::News::kNone || apart > kBeaconShortest * timing_.speed)
+    if (isNew || apart > kBeaconShortest * timing_.speed)
       nextBeacon_ = std::min(nextBeacon_, lastBeacon_ + kBeaconShortest);
     const double ahead = clock_->hear(beacon, wall);
     if (ahead > timing_.maxAge)
@@ -209,6 +223,7 @@ class RealTimeRun
   RealTimeOptions timing_;
   int self_;
   Peers peers_;
+  std::set<int> isNew_;  // whose clock was not yet looked at
   std::unique_ptr<Topic> beacons_, estimates_;
   std::optional<TeamClock> clock_;          // none while the team is waited for
   double nextBeacon_ = 0, lastBeacon_ = 0;  // by the wall

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <slamot/live/Beacon.h>
-
+#include <cstdint>
 #include <map>
 #include <set>
+#include <vector>
 
 namespace slamot::live
 {
-/// Who of the team is there, by their beacons.
+/// Who of the team is there, by what they send.
 class Peers
 {
  public:
@@ -19,12 +19,17 @@ class Peers
     kDouble,     ///< another robot has this one's number
     kStranger    ///< not of this team; once for each
   };
-  static constexpr double kSilent = 3;  ///< [s] without a beacon
+  static constexpr double kSilent = 3;  ///< [s] without a word
 
   /// \param team numbers of all, this robot's too.
   Peers(int self, std::set<int> team) : self_(self), team_(std::move(team)) {}
 
-  News hear(const Beacon& beacon, double wall);
+  News hear(int sender, std::uint64_t session, double wall);
+  /// Whether it is the number of another robot of the team.
+  [[nodiscard]] bool isOfTeam(int sender) const
+  {
+    return sender != self_ && team_.count(sender) > 0;
+  }
   /// Those who fell silent since the last call.
   [[nodiscard]] std::vector<int> fallSilent(double wall);
   /// Whether all others have been heard.

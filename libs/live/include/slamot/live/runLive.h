@@ -15,7 +15,8 @@ struct LiveOptions
   std::set<int> team;         ///< numbers of all, this robot's too
   std::uint64_t session = 1;  ///< higher after each start of this robot
   core::RunOptions run;
-  std::function<void(const std::string&)> onNews;  ///< who comes and goes, a line each
+  std::function<void(const std::string&)> onNews;            ///< who comes and goes, a line each
+  std::function<void(const fusion::FusionEvent&)> onFusion;  ///< each good message
 };
 
 struct RealTimeOptions
@@ -23,8 +24,14 @@ struct RealTimeOptions
   double speed = 1;               ///< of the log's clock against the wall's
   std::optional<double> startAt;  ///< when the team's clock begins, by wallTime(); absent: at once
   std::optional<double> clockZero;  ///< at what time in the log; absent: that of the first step
-  double waitS = 0;                 ///< waits so long for the others to be there [s], at most
+  double waitS = 0;                 ///< waits for the others to be there [s], at most
   double maxAge = 1;                ///< a robot so far behind its clock neither tells nor hears [s]
+};
+
+struct LockstepOptions
+{
+  double waitS = 60;     ///< waits for the others to be there [s], at most
+  double silenceS = 60;  ///< of one who is waited for, after which the run is given up [s]
 };
 
 struct LiveResult : core::RunResult
@@ -41,8 +48,7 @@ LiveResult runRealTime(fusion::TeamRobot& robot, fusion::Radio& radio, Network& 
 
 /// Runs one robot step by step with all others: the same logs give the same results as
 /// fusion::runTeam().
-/// \param silence of a robot that is waited for after which the run is given up [s].
 /// Errors as core::run(), and kLimit when another is silent or ends before its log.
 LiveResult runLockstep(fusion::TeamRobot& robot, fusion::Radio& radio, Network& network,
-                       const LiveOptions& options, double silence);
+                       const LiveOptions& options, const LockstepOptions& limits);
 }  // namespace slamot::live
