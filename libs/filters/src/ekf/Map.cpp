@@ -81,7 +81,8 @@ Map::Scan Map::match(int robot, const core::LandmarkScan& scan, double time,
     const int slot = out.matches[k], object = belief_.landmark(slot);
     const double n = noise(entries_[static_cast<std::size_t>(slot)], time);
     Innovation o;
-    if (relate(belief_, robot, object, eye, out.rays[k], o, n))
+    // One that is nowhere near what it says it is was misread.
+    if (relate(belief_, robot, object, eye, out.rays[k], o, n) && o.d2 <= settings_.gates.outer)
       rows.push_back(rowsOf(robot, object, o, out.rays[k], n));
     else
       out.matches[k] = kRejected;
