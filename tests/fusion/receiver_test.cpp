@@ -273,6 +273,37 @@ TEST(Receiver, FusesTheTargetWhereNoSightingFits)
   EXPECT_EQ(robot.receiver.counts().of(Note::kCandidatesOutside), 1);
 }
 
+// Robot 3 told that it is where the sighting is, too.
+TEST(Receiver, LeavesOutASightingThatCouldBeAnotherRobot)
+{
+  for (const bool near : {false, true})
+  {
+    Robot robot;
+    Message mate = goodMessage();
+    mate.sender = 3;
+    mate.candidates.clear();
+    mate.estimate.mean.head(2) << (near ? 1.03 : 40), 1.96;
+    robot.hear(mate);
+    const Receipt r = robot.hear(goodMessage());
+    EXPECT_EQ(r.candidate, near ? -1 : 0);
+    EXPECT_EQ(robot.receiver.counts().of(Note::kCouldBeAnother), near ? 1 : 0);
+  }
+  // A name leaves no doubt, and what was heard long ago tells nothing.
+  Robot robot;
+  Message mate = goodMessage(), named = goodMessage();
+  mate.sender = 3;
+  mate.candidates.clear();
+  mate.estimate.mean.head(2) << 1.03, 1.96;
+  robot.hear(mate);
+  named.candidates[0].id = 11;
+  EXPECT_EQ(robot.hear(named).candidate, 0);
+  Message later = goodMessage();
+  later.sequence = 9;
+  later.estimate.time = kNow + 6;
+  later.estimate.mean.segment(3, 6) = goodMessage().estimate.mean.segment(3, 6);
+  EXPECT_EQ(robot.hear(later, kNow + 6).candidate, 0);
+}
+
 TEST(Receiver, FusesASightingWithoutACommonTarget)
 {
   for (const int told : {0, 4})

@@ -30,7 +30,8 @@ constexpr std::array<const char*, static_cast<std::size_t>(Outcome::kCount)> kOu
     "candidate_gate_failed",
     "refused_by_filter"};
 constexpr std::array<const char*, static_cast<std::size_t>(Note::kCount)> kNotes = {
-    "ambiguous", "late_candidates", "candidates_outside", "candidate_fused", "target_fused"};
+    "ambiguous",        "late_candidates", "candidates_outside",
+    "could_be_another", "candidate_fused", "target_fused"};
 }  // namespace
 
 const char* name(Outcome outcome)

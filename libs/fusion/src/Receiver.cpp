@@ -101,6 +101,8 @@ Receipt Receiver::receive(const Bytes& bytes, double now, core::TeamFilter& filt
     else
     {
       last_[m.sender] = {m.session, m.sequence};
+      const RobotAndTarget& e = m.estimate;
+      mates_[m.sender] = {e.time, {{e.mean[0], e.mean[1]}, e.cov.topLeftCorner<2, 2>()}};
       fuse(m, now, filter, receipt);
     }
   }
@@ -146,7 +148,7 @@ void Receiver::fuse(const Message& m, double now, core::TeamFilter& filter, Rece
   if (late)
     counts_.add(Note::kLateCandidates);
   else if (seen)
-    chooseCandidate(m.candidates, told, own, shared, evidence, receipt);
+    chooseCandidate(m, now, told, own, shared, evidence, receipt);
 
   if (evidence)
     deliver(*evidence, shared, filter, receipt);
@@ -156,10 +158,29 @@ void Receiver::fuse(const Message& m, double now, core::TeamFilter& filter, Rece
     receipt.outcome = seen && !late ? Outcome::kCandidateGateFailed : Outcome::kNothingUsable;
 }
 
-void Receiver::chooseCandidate(const std::vector<Candidate>& candidates, const RobotAndTarget& told,
+bool Receiver::couldBeAnother(const core::Evidence& place, const RobotAndTarget& own, int sender,
+                              double now) const
+{
+  constexpr double kFresh = 5, kSpeed = 3;  // [s]: older ones tell nothing; [m/s] at most
+  const Vector2 at = place.innovation + own.mean.head<2>();
+  return std::any_of(mates_.begin(), mates_.end(),
+                     [&](const auto& entry)
+                     {
+                       const auto& [number, mate] = entry;
+                       const double age = std::abs(now - mate.time);
+                       if (number == sender || age > kFresh) return false;
+                       const Vector2 off = at - Vector2(mate.place.mean.x, mate.place.mean.y);
+                       const MatrixXd cov = mate.place.cov + place.cov +
+                                            std::pow(kSpeed * age, 2) * Matrix2::Identity();
+                       return Gate(off, cov, options_.candidateGate).passed;
+                     });
+}
+
+void Receiver::chooseCandidate(const Message& m, double now, const RobotAndTarget& told,
                                const RobotAndTarget& own, int shared,
                                std::optional<core::Evidence>& evidence, Receipt& receipt)
 {
+  const std::vector<Candidate>& candidates = m.candidates;
   // A sensor that knows this robot says so: then it is none of the unknown ones.
   const bool known = options_.identity != core::kNoId &&
                      std::any_of(candidates.begin(), candidates.end(),
@@ -171,6 +192,11 @@ void Receiver::chooseCandidate(const std::vector<Candidate>& candidates, const R
     if (c.id != (known ? options_.identity : core::kNoId)) continue;
     const auto place = evidenceOf(placeOf(c, told, 0), own, true, 0);
     if (!gateOf(place, own, options_.candidateGate).passed) continue;
+    if (!known && couldBeAnother(place, own, m.sender, now))
+    {
+      counts_.add(Note::kCouldBeAnother);
+      continue;
+    }
     const auto both = evidenceOf(placeOf(c, told, shared), own, true, shared);
     const Gate gate = gateOf(both, own, shared > 0 ? options_.targetGate : options_.candidateGate);
     if (!gate.passed) continue;

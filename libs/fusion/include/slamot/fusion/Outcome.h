@@ -48,6 +48,7 @@ enum class Note
   kAmbiguous,          ///< several sightings could be this robot; the likeliest was taken
   kLateCandidates,     ///< sightings too old for a robot that moves; left out
   kCandidatesOutside,  ///< it had sightings, but none that could be this robot
+  kCouldBeAnother,     ///< a sighting that could be yet another robot; left out
   kCandidateFused,     ///< a sighting of this robot was fused
   kTargetFused,
   kCount

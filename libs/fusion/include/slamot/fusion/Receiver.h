@@ -25,7 +25,9 @@ struct Receipt
 /// its own gate and, where the target is fused too, the gate of both together: a place that is
 /// near this robot, but off by other than the target is, although the same errors moved both, is
 /// most likely false.  Candidates that fail are left out, the target is fused all the same.  Of
-/// several that pass the likeliest is taken, and counted as ambiguous.
+/// several that pass the likeliest is taken, and counted as ambiguous.  A candidate without
+/// identity that could as well be another robot of the team, by what that one last told of itself,
+/// is left out: among robots that look alike, the nearest is often not this one.
 class Receiver
 {
  public:
@@ -56,8 +58,11 @@ class Receiver
  private:
   [[nodiscard]] std::optional<Outcome> checkEnvelope(const Message& m, double now) const;
   void fuse(const Message& m, double now, core::TeamFilter& filter, Receipt& receipt);
+  /// Whether a place could be that of a robot other than this one and `sender`.
+  [[nodiscard]] bool couldBeAnother(const core::Evidence& place, const core::RobotAndTarget& own,
+                                    int sender, double now) const;
   // Replaces the evidence of the target alone by that of both, if a candidate fits.
-  void chooseCandidate(const std::vector<Candidate>& candidates, const core::RobotAndTarget& told,
+  void chooseCandidate(const Message& m, double now, const core::RobotAndTarget& told,
                        const core::RobotAndTarget& own, int shared,
                        std::optional<core::Evidence>& evidence, Receipt& receipt);
   void deliver(const core::Evidence& evidence, int shared, core::TeamFilter& filter,
@@ -66,6 +71,12 @@ class Receiver
   int self_;
   Options options_;
   std::map<int, std::pair<std::uint64_t, std::uint64_t>> last_;  // session, sequence by sender
+  struct Mate
+  {
+    double time;  // [s]
+    Gaussian<Point2D> place;
+  };
+  std::map<int, Mate> mates_;  // by what each last told of itself
   MessageCounts counts_;
 };
 }  // namespace slamot::fusion
