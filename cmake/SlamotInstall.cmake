@@ -9,5 +9,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/slamot-config-version.cma
 install(FILES ${PROJECT_BINARY_DIR}/slamot-config.cmake
   ${PROJECT_BINARY_DIR}/slamot-config-version.cmake
   ${CMAKE_CURRENT_LIST_DIR}/SlamotDependencies.cmake DESTINATION ${package_dir})
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/share/dds-security/make-keys
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/slamot/dds-security)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config-ini ${PROJECT_SOURCE_DIR}/share/datasets
   DESTINATION ${CMAKE_INSTALL_DATADIR}/slamot PATTERN .gitkeep EXCLUDE)

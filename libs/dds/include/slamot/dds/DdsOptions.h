@@ -10,7 +10,7 @@ namespace slamot::dds
 /// Section [dds] of a configuration: the network of a live team.
 struct DdsOptions
 {
-  std::vector<int> team;  ///< numbers of all robots, in the order of their logs in `slamot team`
+  std::vector<int> team;  ///< numbers of all robots, in the order of [team] methods
   int domain = 0;         ///< of DDS; also its ports
   std::string name;       ///< robots of another name are not heard, in the same domain either
   std::string interface;  ///< name or address of the network interface; empty: Cyclone DDS chooses
