@@ -103,10 +103,11 @@ class RealTimeRun
   {
     if (!awaitDue()) return false;
     passOn();
+    late_ = clock_->at(wallTime()) - next_->time;
     pending_ = std::make_unique<Pending>();
     pending_->step = std::move(*next_);
     pending_->update = robot_.member->process(pending_->step);
-    if (robot_.member->isDue() && behind() <= timing_.maxAge)
+    if (robot_.member->isDue() && late_ <= timing_.maxAge)
       estimates_->publish(robot_.member->tell());
     exchangeBeacons();
     hear();
@@ -123,6 +124,7 @@ class RealTimeRun
       exchangeBeacons();
       const double left = clock_->wallAt(next_->time) - wallTime();
       if (left <= 0) return true;
+      late_ = 0;
       hear();
       network_.wait(std::min(left, kPatience));
     }
@@ -138,16 +140,10 @@ class RealTimeRun
     pending_.reset();
   }
 
-  // How far the filter is behind the team's clock [s].
-  [[nodiscard]] double behind() const
-  {
-    return clock_->at(wallTime()) - (pending_ ? pending_->step.time : -1e300);
-  }
-
   void hear()
   {
     // Whoever is far behind would count everything as from the future.
-    if (!pending_ || behind() > timing_.maxAge) return;
+    if (!pending_ || late_ > timing_.maxAge) return;
     const double now = clock_->at(wallTime());
     for (const Bytes& bytes : estimates_->take())
     {
@@ -228,6 +224,7 @@ class RealTimeRun
   std::optional<TeamClock> clock_;          // none while the team is waited for
   double nextBeacon_ = 0, lastBeacon_ = 0;  // by the wall
   std::optional<core::Step> next_;
+  double late_ = 0;  // how long after its time the last step was taken in [s]
   std::unique_ptr<Pending> pending_;
   LiveResult result_;
 };
