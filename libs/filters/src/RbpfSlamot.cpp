@@ -27,6 +27,18 @@ std::vector<core::WeightedPose> RbpfSlamot::particles() const
 {
   return engine_->particles();
 }
+core::RobotAndTarget RbpfSlamot::robotAndTarget(int target) const
+{
+  return engine_->robotAndTarget(target);
+}
+core::Fusion RbpfSlamot::fuse(const core::Evidence& evidence, const core::FusionOptions& options)
+{
+  return engine_->fuse(evidence, options);
+}
+void RbpfSlamot::predictTarget(core::RobotAndTarget& other, double dt) const
+{
+  engine_->predictTarget(other, dt);
+}
 std::size_t RbpfSlamot::mapBytes() const
 {
   return engine_->mapBytes();

@@ -1,5 +1,8 @@
 #include "Engine.h"
 
+#include "sighting/intersectionOf.h"
+#include "sighting/kinematicPrediction.h"
+
 #include <slamot/core/Error.h>
 #include <slamot/math/statistics.h>
 
@@ -11,19 +14,6 @@ namespace slamot::filters::ekf
 namespace
 {
 constexpr int kRobot = core::RobotAndTarget::kRobot;
-
-math::Intersection intersectionOf(core::FusionRule rule)
-{
-  switch (rule)
-  {
-    case core::FusionRule::kSplitCi:
-      return math::Intersection::kSplit;
-    case core::FusionRule::kIci:
-      return math::Intersection::kInverse;
-    default:
-      return math::Intersection::kCovariance;
-  }
-}
 }  // namespace
 
 template <class Motion>
@@ -122,29 +112,7 @@ core::Fusion EngineOf<Motion>::fuseBlocks(const core::Evidence& evidence,
 template <class Motion>
 void EngineOf<Motion>::predictTarget(core::RobotAndTarget& other, double dt) const
 {
-  constexpr int K = decltype(Motion::kinematics(State{}).value)::RowsAtCompileTime;
-  if (other.targetSize() > K)  // what this model does not know is left out
-  {
-    other.mean.conservativeResize(kRobot + K);
-    other.cov.conservativeResize(kRobot + K, kRobot + K);
-  }
-  const int k = other.targetSize();
-  if (k == 0 || dt <= 0) return;
-  Eigen::Matrix<double, K, 1> x = Eigen::Matrix<double, K, 1>::Zero();
-  x.head(k) = other.mean.tail(k);
-  const models::TargetTransition<K> t = motion_.kinematicTransition(x, dt);
-  Eigen::MatrixXd Q = t.Q.topLeftCorner(k, k);
-  if constexpr (K == 6)  // an acceleration that was not told is noise
-    if (k < K)
-      Q += std::pow(motion_.accelerationStd(), 2) * t.F.template block<4, 2>(0, 4) *
-           t.F.template block<4, 2>(0, 4).transpose();
-  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(kRobot + k, kRobot + k);
-  F.bottomRightCorner(k, k) = t.F.topLeftCorner(k, k);
-  other.mean = (F * other.mean).eval();
-  other.cov = (F * other.cov * F.transpose()).eval();
-  other.cov.bottomRightCorner(k, k) += Q;
-  other.cov = (0.5 * (other.cov + other.cov.transpose())).eval();
-  other.time += dt;
+  predictKinematics(motion_, other, dt);
 }
 
 #define SLAMOT_TEAM_PART(Motion)                                                                   \

@@ -11,16 +11,6 @@ namespace slamot::filters::rbpf
 {
 namespace
 {
-// Purposes of random streams.
-enum : std::uint64_t
-{
-  kStartStream = 1,
-  kMoveStream,
-  kSampleStream,
-  kResampleStream,
-  kAssociateStream
-};
-
 constexpr double kLongestUnsampledTurn = 0.2;  // [rad] deviation of the pending heading
 
 double meanStd(const Gaussian<Pose2D>& g)
@@ -28,32 +18,6 @@ double meanStd(const Gaussian<Pose2D>& g)
   return std::sqrt(std::max(0.0, 0.5 * (g.cov(0, 0) + g.cov(1, 1))));
 }
 }  // namespace
-
-void BestMap::visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const
-{
-  std::vector<core::LandmarkEstimate> confirmed;
-  map.visit(
-      [&](std::uint32_t slot, const maps::Landmark& m)
-      {
-        if (m.sightings < settings_.confirmSightings || m.existence < 0) return;
-        confirmed.push_back({scan_.idOf(slot), {m.point(), m.cov()}, m.sightings});
-      });
-  std::sort(confirmed.begin(), confirmed.end(),
-            [](const auto& a, const auto& b) { return a.id < b.id; });
-  for (auto& m : confirmed)
-  {
-    frame.addTo(m.position);
-    visitor(m);
-  }
-}
-
-std::size_t BestMap::size() const
-{
-  std::size_t n = 0;
-  map.visit([&](std::uint32_t, const maps::Landmark& m)
-            { n += m.sightings >= settings_.confirmSightings && m.existence >= 0; });
-  return n;
-}
 
 template <class Motion>
 EngineOf<Motion>::EngineOf(const Settings& settings, const Motion& motion,
@@ -104,6 +68,11 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
       p.targets.push_back(motion_.start(context.starts.targets.at(t.id)));
   }
   if (settings_.informed) pending_.cov = bodyCov;
+  particles_.beforeSubstitution = [this]
+  {
+    for (std::size_t t = 0; t < tracks_.list().size(); ++t)
+      if (trackWith(tracks_.list()[t].id) == t) kept_.push_back(jointMoments(t));
+  };
   estimate_.landmarks = &bestMap_;
   diagnostics_.particles = settings_.particles;
   updateEstimate(time, false);
@@ -118,6 +87,7 @@ core::Update EngineOf<Motion>::process(const core::Step& step)
       (step.landmarks && (!step.landmarks->sightings.empty() || settings_.detection > 0)) ||
       (step.blobs && !step.blobs->blobs.empty());
   ++stepNumber_;
+  kept_.clear();
   diagnostics_.ess.reset();
   diagnostics_.resampled = false;
   std::vector<core::Pairing> pairs;
@@ -156,12 +126,18 @@ void EngineOf<Motion>::move(const Gaussian<Pose2D>& increment)
   scan_.move(increment);
   if (settings_.informed && std::sqrt(pending_.cov(2, 2)) < kLongestUnsampledTurn) return;
   placed_ = true;
+  samplePending(kMoveStream);
+}
+
+template <class Motion>
+void EngineOf<Motion>::samplePending(std::uint64_t stream)
+{
   const Matrix3 L = math::squareRoot(pending_.cov);
   const Pose2D mean = pending_.mean;
   workers_.forEach(particles_.size(),
                    [&](std::size_t i, int)
                    {
-                     math::RandomStream random{seed_, kMoveStream, stepNumber_, i};
+                     math::RandomStream random{seed_, stream, stepNumber_, i};
                      const Vector3 d = L * random.normal3();
                      Pose2D& pose = particles_[i].pose;
                      pose = math::compose(pose, {mean.x + d[0], mean.y + d[1], mean.phi + d[2]});
@@ -390,71 +366,6 @@ void EngineOf<Motion>::dropLostTracks(double time)
 }
 
 template <class Motion>
-void EngineOf<Motion>::updateEstimate(double time, bool afterScan)
-{
-  estimate_.time = time;
-  const std::size_t n = particles_.size();
-  const bool resampledBefore = !afterScan;
-  if (resampledBefore)  // weights after a resampling are equal; outcomes_ are of the last scan
-    for (std::size_t i = 0; i < n; ++i) weights_[i] = std::exp(particles_.logWeight(i));
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) sum += weights_[i];
-  const bool fromScan = afterScan && scan_.size() + blobRays_.rays.size() > 0;
-  PoseMoments robot;
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    weights_[i] /= sum;
-    if (fromScan)
-    {
-      const Vector3& m = outcomes_[i].mean;
-      robot.add(weights_[i], {m[0], m[1], m[2]}, outcomes_[i].cov);
-      continue;
-    }
-    const Matrix3 R = math::poseRotation(particles_[i].pose.phi);
-    robot.add(weights_[i], math::compose(particles_[i].pose, pending_.mean),
-              R * pending_.cov * R.transpose());
-  }
-  estimate_.robot = robot.gaussian();
-  bestMap_.frame.addTo(estimate_.robot);
-
-  estimate_.targets.clear();
-  for (std::size_t t = 0; t < tracks_.list().size(); ++t)
-  {
-    if (!tracks_.list()[t].confirmed) continue;
-    TargetMoments<Motion> moments;
-    for (std::size_t i = 0; i < n; ++i) moments.add(weights_[i], particles_[i].targets[t]);
-    estimate_.targets.push_back(moments.estimate(tracks_.list()[t]));
-    bestMap_.frame.addTo(estimate_.targets.back());
-  }
-  std::sort(estimate_.targets.begin(), estimate_.targets.end(),
-            [](const auto& a, const auto& b) { return a.id < b.id; });
-  if (afterScan) bestMap_.map = particles_[best_].map;
-}
-
-template <class Motion>
-std::vector<core::Pairing> EngineOf<Motion>::pairings(const core::Step& step) const
-{
-  using Kind = core::Pairing::Outcome;
-  std::vector<core::Pairing> out;
-  const auto outcome = [](std::int32_t m) {
-    return m >= 0 ? Kind::kKnown : m == kNew ? Kind::kNew : Kind::kRejected;
-  };
-  const auto& landmarks = outcomes_[best_].landmarks;
-  for (std::size_t j = 0; step.landmarks && j < landmarks.size(); ++j)
-  {
-    const std::int32_t m = landmarks[j];
-    const int id = m >= 0      ? scan_.idOf(static_cast<std::uint32_t>(m))
-                   : m == kNew ? scan_.idOf(scan_.newSlot(j))
-                               : core::kNoId;
-    out.push_back({false, static_cast<int>(j), outcome(m), id});
-  }
-  const auto& blobs = outcomes_[best_].blobs;
-  for (std::size_t k = 0; step.blobs && k < blobs.size(); ++k)
-    out.push_back({true, static_cast<int>(k), outcome(blobs[k]), blobIds_[k]});
-  return out;
-}
-
-template <class Motion>
 void EngineOf<Motion>::collectGarbage()
 {
   if (!maps::LandmarkCollector::isDue(pool_)) return;
@@ -463,19 +374,6 @@ void EngineOf<Motion>::collectGarbage()
   collector.mark(bestMap_.map);
   collector.sweep();
   scan_.releaseUnoccupied(collector.occupied());
-}
-
-template <class Motion>
-std::vector<core::WeightedPose> EngineOf<Motion>::particles() const
-{
-  std::vector<core::WeightedPose> out;
-  for (std::size_t i = 0; i < weights_.size(); ++i)
-    out.push_back({math::compose(particles_.m_particles[i].d.pose, pending_.mean), 0});
-  double sum = 0;
-  for (std::size_t i = 0; i < out.size(); ++i)
-    sum += out[i].weight = std::exp(particles_.m_particles[i].log_w);
-  for (auto& p : out) p.weight /= sum;
-  return out;
 }
 
 template class EngineOf<models::DifferentialDriveTarget>;

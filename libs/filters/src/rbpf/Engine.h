@@ -1,12 +1,11 @@
 #pragma once
 
-#include "LandmarkScan.h"
-#include "MapFrame.h"
+#include "BestMap.h"
+#include "JointFusion.h"
 #include "ParticleSet.h"
-#include "Settings.h"
 #include "Workers.h"
 
-#include <slamot/core/Filter.h>
+#include <slamot/core/Team.h>
 #include <slamot/filters/RbpfSlamot.h>
 
 namespace slamot::filters
@@ -20,25 +19,23 @@ class RbpfSlamot::Engine
   [[nodiscard]] virtual core::Estimate estimate() const = 0;
   [[nodiscard]] virtual std::vector<core::WeightedPose> particles() const = 0;
   [[nodiscard]] virtual std::size_t mapBytes() const = 0;
+  [[nodiscard]] virtual core::RobotAndTarget robotAndTarget(int target) const = 0;
+  virtual core::Fusion fuse(const core::Evidence& evidence, const core::FusionOptions& options) = 0;
+  virtual void predictTarget(core::RobotAndTarget& other, double dt) const = 0;
 };
 }  // namespace slamot::filters
 
 namespace slamot::filters::rbpf
 {
-/// The heaviest particle's map, as the estimate shows it.
-class BestMap : public core::LandmarkView
+// Purposes of random streams.
+enum : std::uint64_t
 {
- public:
-  BestMap(const Settings& settings, const LandmarkScan& scan) : settings_(settings), scan_(scan) {}
-  void visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const override;
-  [[nodiscard]] std::size_t size() const override;
-
-  maps::LandmarkMap map;
-  MapFrame frame;
-
- private:
-  const Settings& settings_;
-  const LandmarkScan& scan_;
+  kStartStream = 1,
+  kMoveStream,
+  kSampleStream,
+  kResampleStream,
+  kAssociateStream,
+  kFuseStream
 };
 
 template <class Motion>
@@ -51,6 +48,9 @@ class EngineOf : public RbpfSlamot::Engine
   [[nodiscard]] core::Estimate estimate() const override { return estimate_; }
   [[nodiscard]] std::vector<core::WeightedPose> particles() const override;
   [[nodiscard]] std::size_t mapBytes() const override { return pool_.bytes(); }
+  [[nodiscard]] core::RobotAndTarget robotAndTarget(int target) const override;
+  core::Fusion fuse(const core::Evidence& evidence, const core::FusionOptions& options) override;
+  void predictTarget(core::RobotAndTarget& other, double dt) const override;
 
  private:
   using State = typename Motion::State;
@@ -69,6 +69,7 @@ class EngineOf : public RbpfSlamot::Engine
 
   void start(const core::FilterContext& context);
   void move(const Gaussian<Pose2D>& increment);
+  void samplePending(std::uint64_t stream);
   void predictTargets(double dt);
   void takeScan(const core::Step& step);
   void settleFrame();
@@ -80,8 +81,25 @@ class EngineOf : public RbpfSlamot::Engine
   void dropLostTracks(double time);
   void normalise();
   void collectGarbage();
+  /// Of a particle's robot in map axes, but for the frame's own doubt.
+  [[nodiscard]] Gaussian<Pose2D> poseOf(std::size_t i) const;
   void updateEstimate(double time, bool afterScan);
+  void showMap(std::size_t particle);
   [[nodiscard]] std::vector<core::Pairing> pairings(const core::Step& step) const;
+
+  // The part of a team: team.cpp.
+  using Kinematics = decltype(Motion::kinematics(State{}).value);
+  static constexpr int kTarget = Kinematics::RowsAtCompileTime;
+  using Joint = Eigen::Matrix<double, 3 + kTarget, 1>;  // robot and target, one particle's
+  [[nodiscard]] std::optional<std::size_t> trackWith(int id) const;
+  [[nodiscard]] Joint jointOf(const Particle<State>& p, std::optional<std::size_t> track) const;
+  [[nodiscard]] core::RobotAndTarget jointMoments(std::size_t track) const;
+  [[nodiscard]] CommonErrors commonErrors(const core::RobotAndTarget& own,
+                                          std::optional<std::size_t> track) const;
+  void carryOut(const JointFusion& fusion, std::optional<std::size_t> track,
+                const core::RobotAndTarget& own);
+  void shiftParticle(Particle<State>& p, std::optional<std::size_t> track, const Joint& by,
+                     const JointFusion& fusion) const;
 
   Settings settings_;
   Motion motion_;
@@ -106,6 +124,10 @@ class EngineOf : public RbpfSlamot::Engine
   std::size_t best_ = 0;
   BestMap bestMap_;
   core::Estimate estimate_;
+  Matrix3 spread_ = Matrix3::Zero();        // of the estimated pose, but for the frame's doubt
+  bool fromScan_ = false;                   // whether the estimate is of outcomes_
+  bool isMoved_ = false;                    // by a team: particles' shifts count
+  std::vector<core::RobotAndTarget> kept_;  // since the particles were resampled
   core::Diagnostics diagnostics_;
 };
 }  // namespace slamot::filters::rbpf

@@ -7,7 +7,8 @@ namespace slamot::filters::rbpf
 /// How uncertain it is where the whole map lies.  What the filter knows, it knows from its first
 /// scan on relative to the pose of that scan; how well that pose itself is known, no later sighting
 /// can tell.  Particles that each guessed it would keep, resampled in time, one guess at random
-/// and no doubt: so it stays out of them, a Gaussian of its own.
+/// and no doubt: so it stays out of them, a Gaussian of its own.  What a team tells moves the whole
+/// map, and its doubt comes in here too.
 class MapFrame
 {
  public:

@@ -13,6 +13,7 @@ template <class TargetState>
 struct Particle
 {
   Pose2D pose;
+  Pose2D shift;  // what a team moved all of it by: pose, map and targets are given before this
   maps::LandmarkMap map;  // a handle: nodes are shared
   std::vector<TargetState> targets;
   std::vector<std::int32_t> followed;  // the landmark that each track of sightings is of
@@ -39,11 +40,16 @@ class ParticleSet
 
   explicit ParticleSet(maps::LandmarkPool& pool) : pool_(pool) {}
 
-  std::function<void()> predictAndUpdate;  ///< the current step's work
-  std::uint64_t substitutions = 0;         ///< resamplings so far
+  std::function<void()> predictAndUpdate;    ///< the current step's work
+  std::function<void()> beforeSubstitution;  ///< if set, called before a resampling
+  std::uint64_t substitutions = 0;           ///< resamplings so far
 
   [[nodiscard]] std::size_t size() const { return this->m_particles.size(); }
   [[nodiscard]] Particle<TargetState>& operator[](std::size_t i) { return this->m_particles[i].d; }
+  [[nodiscard]] const Particle<TargetState>& operator[](std::size_t i) const
+  {
+    return this->m_particles[i].d;
+  }
   [[nodiscard]] double& logWeight(std::size_t i) { return this->m_particles[i].log_w; }
 
   // MRPT 2.5.8 reaches the list by a dynamic_cast in each of these, once per particle: 2% of a step
@@ -53,6 +59,7 @@ class ParticleSet
 
   void performSubstitution(const std::vector<std::size_t>& indices) override
   {
+    if (beforeSubstitution) beforeSubstitution();
     Base::performSubstitution(indices);
     ++substitutions;
     std::vector<std::size_t> sorted(indices);  // as the base places them
