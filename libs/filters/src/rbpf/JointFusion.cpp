@@ -15,6 +15,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 constexpr int kRobot = core::RobotAndTarget::kRobot;
+constexpr int kSteps = 5;           // of weights tried, each twice as near to 1
 constexpr double kNothing = 1e-10;  // a criterion that is smaller by less, relatively, is equal
 
 MatrixXd symmetric(const MatrixXd& m)
@@ -111,7 +112,8 @@ struct Root
 /// they are no less than Q.  With a singular value s of the whitened correlation, and its two
 /// directions u, w in metres: [s a uu', s uw'; s wu', s/a ww'] is positive semidefinite for all
 /// a > 0, and added to Q takes the correlation away; a is what costs the criterion least.
-void separate(const MatrixXd& Q, const CommonErrors& common, const VectorXd& counts,
+/// Without `whole`, the correlation is dropped and nothing added.
+void separate(const MatrixXd& Q, const CommonErrors& common, const VectorXd& counts, bool whole,
               JointFusion& out)
 {
   const Eigen::Index n = Q.rows(), k = n - kRobot;
@@ -124,6 +126,7 @@ void separate(const MatrixXd& Q, const CommonErrors& common, const VectorXd& cou
   if (k == 0) return;
   const Root target(own.bottomRightCorner(k, k));
   out.target = target.root * target.root;
+  if (!whole) return;
   const MatrixXd correlation = frame.inverse * own.topRightCorner(kRobot, k) * target.inverse;
   const Eigen::JacobiSVD<MatrixXd> svd(correlation, Eigen::ComputeThinU | Eigen::ComputeThinV);
   for (Eigen::Index j = 0; j < svd.singularValues().size(); ++j)
@@ -137,40 +140,70 @@ void separate(const MatrixXd& Q, const CommonErrors& common, const VectorXd& cou
     out.target += s / a * w * w.transpose();
   }
 }
+
+struct Separated
+{
+  JointFusion fusion;
+  double cost;  ///< the criterion, of all errors after it
+};
+
+/// Of the fused covariance, what is common is all that the particles' own differences, carried
+/// through the gain, do not account for.
+Separated separated(const core::RobotAndTarget& own, const CommonErrors& common, const Fused& fused,
+                    const VectorXd& counts, bool whole)
+{
+  const Eigen::Index n = own.mean.size(), k = n - kRobot;
+  const MatrixXd keep = MatrixXd::Identity(n, n) - fused.gain;
+  MatrixXd rigid(n, kRobot);
+  rigid << Matrix3::Identity(), common.lever;
+  const auto together = [&](const Matrix3& frame, const MatrixXd& target)
+  {
+    MatrixXd out = rigid * frame * rigid.transpose();
+    out.bottomRightCorner(k, k) += target;
+    return out;
+  };
+  const MatrixXd ofParticles =
+      keep * (own.cov - together(common.frame, common.target)) * keep.transpose();
+  Separated out;
+  out.fusion.omega = fused.omega;
+  out.fusion.shift = fused.shift;
+  out.fusion.gain = fused.gain;
+  out.fusion.target.setZero(k, k);
+  separate(fused.cov - ofParticles, common, counts, whole, out.fusion);
+  const MatrixXd after = ofParticles + together(out.fusion.frame, out.fusion.target);
+  out.cost = counts.dot(after.diagonal());
+  if (!std::isfinite(out.cost) || !out.fusion.shift.allFinite())
+    throw std::domain_error("a covariance is badly scaled");
+  return out;
+}
 }  // namespace
 
 JointFusion fuseJoint(const core::RobotAndTarget& own, const CommonErrors& common,
                       const core::Evidence& evidence, const core::FusionOptions& options)
 {
-  const Eigen::Index n = own.mean.size();
-  if (evidence.H.cols() != n) throw std::domain_error("it is of other coordinates");
+  if (evidence.H.cols() != own.mean.size()) throw std::domain_error("it is of other coordinates");
   if (evidence.H.rows() != evidence.innovation.size())
     throw std::domain_error("sizes of a block disagree");
   const bool blocks = options.rule == core::FusionRule::kPaper;
   const Fused fused =
       blocks ? blockByBlock(own.cov, evidence, options) : intersected(own.cov, evidence, options);
-  JointFusion out;
-  if (!fused.pays) return out;
+  if (!fused.pays) return {};
+  const VectorXd counts = criterionWeights(own.mean.size(), options.headingLever);
+  Separated best = separated(own, common, fused, counts, !blocks);
+  best.fusion.pays = true;
+  if (blocks || options.omega) return best.fusion;
 
-  // Of the fused covariance, what is common is all that the particles' own differences, carried
-  // through the gain, do not account for.
-  const MatrixXd keep = MatrixXd::Identity(n, n) - fused.gain;
-  MatrixXd rigid(n, kRobot);
-  rigid << Matrix3::Identity(), common.lever;
-  MatrixXd before = rigid * common.frame * rigid.transpose();
-  before.bottomRightCorner(n - kRobot, n - kRobot) += common.target;
-  const MatrixXd ofParticles = keep * (own.cov - before) * keep.transpose();
-  const VectorXd counts = criterionWeights(n, options.headingLever);
-  separate(fused.cov - ofParticles, common, counts, out);
-  MatrixXd after = ofParticles + rigid * out.frame * rigid.transpose();
-  after.bottomRightCorner(n - kRobot, n - kRobot) += out.target;
-  const double cost = counts.dot(after.diagonal());
-  out.pays = blocks || options.omega || cost < counts.dot(own.cov.diagonal()) * (1 - kNothing);
-  out.omega = fused.omega;
-  out.shift = fused.shift;
-  out.gain = fused.gain;
-  if (!out.frame.allFinite() || !out.target.allFinite() || !out.shift.allFinite())
-    throw std::domain_error("a covariance is badly scaled");
-  return out;
+  // A smaller step correlates less: the best weight may be nearer to 1.
+  core::FusionOptions nearer = options;
+  for (double other = 0.5 * (1 - fused.omega), n = 1; n < kSteps; other *= 0.5, ++n)
+  {
+    nearer.omega = 1 - other;
+    const Fused step = intersected(own.cov, evidence, nearer);
+    Separated next = step.pays ? separated(own, common, step, counts, true) : best;
+    if (!(next.cost < best.cost)) break;
+    best = next;
+  }
+  best.fusion.pays = best.cost < counts.dot(own.cov.diagonal()) * (1 - kNothing);
+  return best.fusion;
 }
 }  // namespace slamot::filters::rbpf

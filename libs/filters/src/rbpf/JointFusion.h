@@ -31,8 +31,9 @@ struct JointFusion
 
 /// `own` holds all errors, the common ones included.  The fused covariance is that of the rule, and
 /// more: the frame and the target, seen from a particle, must be independent, so both grow by what
-/// the fusion correlated them.  It pays if the criterion is smaller nevertheless, or where the
-/// weight is given. \throws std::domain_error as math::intersect(), and if sizes disagree.
+/// the fusion correlated them; not so by the paper's rule, which knows of no such thing.  It pays
+/// if the criterion is smaller nevertheless, or where the weight is given.
+/// \throws std::domain_error as math::intersect(), and if sizes disagree.
 [[nodiscard]] JointFusion fuseJoint(const core::RobotAndTarget& own, const CommonErrors& common,
                                     const core::Evidence& evidence,
                                     const core::FusionOptions& options);
