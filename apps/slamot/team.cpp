@@ -8,8 +8,7 @@
 #include <slamot/results/StepTimer.h>
 #include <slamot/results/TextFile.h>
 #include <slamot/results/TruthFiles.h>
-#include <slamot/team/Team.h>
-#include <slamot/team/teamResults.h>
+#include <slamot/team/teamReport.h>
 
 #include <cstdio>
 #include <exception>
@@ -19,6 +18,7 @@
 #include "Progress.h"
 #include "memberResult.h"
 #include "salvage.h"
+#include "teamScene.h"
 
 namespace slamot::apps
 {
@@ -172,14 +172,19 @@ class TeamRun
     results::writeWhole((place / "config.ini").string(), text);
     results::writeWhole((place / "team.json").string(),
                         team::teamJson(*team_, all, plan_.seed, timing));
+    mrpt::saveScene((place / "scene.3Dscene").string(),
+                    teamSceneOf(team::titleOf(*team_), team::viewOf(*team_, all)));
+    const std::string warning =
+        team::writeTeamReport((place / "report.html").string(), *team_, all, plan_.seed, text);
     folder.publish();
     if (o_.common.quiet) return;
+    if (!warning.empty()) std::fprintf(stderr, "slamot: warning: %s\n", warning.c_str());
     for (std::size_t r = 0; r < robots_.size(); ++r)
       std::printf("%s, %s: %zu steps\n%s", robots_[r]->name.c_str(), team_->method(r).c_str(),
                   robots_[r]->record.steps.size(),
                   results::summaryTable(robots_[r]->record, evaluations[r]).c_str());
     std::printf("%s", team::teamTable(*team_, all).c_str());
-    std::printf("results: %s\n", folder_.c_str());
+    std::printf("report: %s\n", (fs::path(folder_) / "report.html").c_str());
   }
 
   /// All robots share one map frame, and are laid over the truth together, once.

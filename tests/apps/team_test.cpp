@@ -74,9 +74,10 @@ TEST(SlamotTeam, WritesAFolderForEachRobotAndPagesForAll)
   const Workplace place;
   ASSERT_TRUE(place.isReady());
   ASSERT_TRUE(place.does("team team.ini" + kBoth + "out"));
-  for (const char* name : {"team.json", "config.ini", "t.robot0/summary.json", "t.robot0/robot.csv",
-                           "t.robot0/target_0.csv", "t.robot0/fusions.csv", "t.robot0/report.html",
-                           "t.robot1/robot.csv", "t.robot1/config.ini"})
+  for (const char* name :
+       {"team.json", "config.ini", "report.html", "scene.3Dscene", "t.robot0/summary.json",
+        "t.robot0/robot.csv", "t.robot0/target_0.csv", "t.robot0/fusions.csv",
+        "t.robot0/report.html", "t.robot1/robot.csv", "t.robot1/config.ini"})
     EXPECT_TRUE(place.has(std::string("out/") + name)) << name;
   const auto team = place.json("out/team.json");
   EXPECT_EQ(team["rule"], "ci");
@@ -97,6 +98,36 @@ TEST(SlamotTeam, WritesAFolderForEachRobotAndPagesForAll)
     EXPECT_GT(robot["messages"]["fused"], 0);
     EXPECT_EQ(robot["messages"]["wrong_candidates_fused"], 0);
   }
+}
+
+TEST(SlamotTeam, ItsPageAndSceneShowTheTeam)
+{
+  const Workplace place;
+  ASSERT_TRUE(place.isReady());
+  ASSERT_TRUE(place.does("team team.ini" + kBoth + "out"));
+  const std::string page = place.read("out/report.html");
+  for (const char* text : {"<h1>team of 2, rule ci</h1>", "href=\"t.robot0/report.html\"",
+                           "Errors of the robots.", "Errors of the target",
+                           "received: the sum of outcomes", "wrong candidate fused", "rule = ci"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is fetched";
+  const Outcome o = place.slamot("render out -o a.png --width 320 --height 240");
+  if (o.text.find("OpenGL") != std::string::npos) GTEST_SKIP() << o.text;
+  EXPECT_EQ(o.status, 0) << o.text;
+  EXPECT_EQ(place.read("a.png").substr(1, 3), "PNG");
+}
+
+TEST(SlamotTeam, ItsPageStandsWithoutTruthAndWithoutMessages)
+{
+  const Workplace place(10);
+  ASSERT_TRUE(place.isReady());
+  for (const char* truth : {"t.robot0.truth", "t.robot1.truth"}) fs::remove_all(place.file(truth));
+  ASSERT_TRUE(place.does("team team.ini --set team.rule=centralized" + kBoth + "out"));
+  const std::string page = place.read("out/report.html");
+  EXPECT_NE(page.find("No ground truth"), std::string::npos);
+  EXPECT_NE(page.find("there are no messages"), std::string::npos);
+  EXPECT_EQ(page.find("Errors of the robots"), std::string::npos);
+  EXPECT_EQ(page.find("This plot is missing"), std::string::npos);
 }
 
 TEST(SlamotTeam, RepeatsARunFromTheConfigItWroteInPlaceOfAnOlderOne)

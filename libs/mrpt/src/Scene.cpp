@@ -31,6 +31,9 @@ const std::array<Colour, 5> kTargets{Colour(0xd5, 0x5e, 0x00), Colour(0xb0, 0x57
                                      Colour(0xe6, 0x9f, 0x00), Colour(0x56, 0xb4, 0xe9),
                                      Colour(0x00, 0x9e, 0x73)};
 
+// Of a team's robots; the landmarks' green is not among them.
+const std::array<Colour, 5> kTeam{kRobot, kTargets[0], kTargets[1], kTargets[2], kTargets[3]};
+
 Colour darkened(const Colour& c)
 {
   const auto part = [](std::uint8_t v) { return static_cast<std::uint8_t>(v / 2); };
@@ -59,7 +62,8 @@ class SceneBuilder
     addGround();
     addPoints("laser points", data_.laserPoints, kLaser, kLaserLayer, 2);
     addLandmarks();
-    addTrack(data_.robot, kRobot);
+    if (data_.team.empty()) addTrack(data_.robot, kRobot);
+    addTeam();
     for (std::size_t i = 0; i < data_.targets.size(); ++i)
       addTrack(data_.targets[i], kTargets[i % kTargets.size()]);
     addTruth(data_.robot, kTruth);
@@ -76,16 +80,36 @@ class SceneBuilder
   void addLegend()
   {
     Legend legend(scene_, data_.title);
-    legend.line(data_.robot.name, kRobot);
+    if (data_.team.empty()) legend.line(data_.robot.name, kRobot);
+    addTeamLegend(legend);
     for (std::size_t i = 0; i < std::min<std::size_t>(data_.targets.size(), kNamedTargets); ++i)
       legend.line(data_.targets[i].name, kTargets[i % kTargets.size()]);
-    if (!data_.robot.truth.empty()) legend.thinLine("true paths", kTruth);
+    if (hasTruePaths()) legend.thinLine("true paths", kTruth);
     if (!data_.landmarks.empty()) legend.ellipse("landmarks, 95%", kLandmark);
     if (!data_.trueLandmarks.empty()) legend.cross("true landmarks", kTruth);
     if (!data_.laserPoints.empty()) legend.dots("laser points", kLaser);
     if (!data_.particles.empty()) legend.dots("particles", kParticle);
     legend.thinLine("grid of " + frame_.gridText(), kFaint);
     legend.finish();
+  }
+
+  void addTeamLegend(Legend& legend)
+  {
+    for (std::size_t i = 0; i < std::min<std::size_t>(data_.team.size(), kNamedTargets); ++i)
+      legend.line(data_.team[i].robot.name, kTeam[i % kTeam.size()]);
+    if (data_.team.empty()) return;
+    legend.thinLine("target, by each", kTeam[0]);
+    const bool any = std::any_of(data_.team.begin(), data_.team.end(),
+                                 [](const SceneMember& m) { return !m.fusions.empty(); });
+    if (any)
+      legend.ellipse("fusions, " + std::to_string(std::lround(data_.fusionScale)) + ":1", kTeam[0]);
+  }
+
+  [[nodiscard]] bool hasTruePaths() const
+  {
+    return !data_.robot.truth.empty() ||
+           std::any_of(data_.team.begin(), data_.team.end(),
+                       [](const SceneMember& m) { return !m.robot.truth.empty(); });
   }
 
   /// Whether SceneViewer3D's first view, of 20 m about the origin, has most of the ground in it.
@@ -158,11 +182,45 @@ class SceneBuilder
     if (!data_.trueLandmarks.empty()) scene_.insert(crosses.object("true landmarks"));
   }
 
-  void addTrack(const SceneTrack& track, const Colour& colour)
+  void addTeam()
+  {
+    for (std::size_t i = 0; i < data_.team.size(); ++i)
+    {
+      const SceneMember& member = data_.team[i];
+      const Colour& colour = kTeam[i % kTeam.size()];
+      addTrack(member.robot, colour);
+      // What overlaps lies on top of each other, not at one height, where it would flicker.
+      const double lift =
+          0.4 * u() * static_cast<double>(i) / static_cast<double>(data_.team.size());
+      addPath(member.target, colour, 0.25, lift);
+      addTruth(member.robot, kTruth);
+      addTruth(member.target, kTruth);
+      Mesh ellipses(colour);
+      for (const SceneFusion& f : member.fusions)
+      {
+        ellipses.ellipse(scaled(f.before), 0.1 * u(), z(kEllipseLayer) + lift, false);
+        ellipses.ellipse(scaled(f.after), 0.1 * u(), z(kEllipseLayer) + lift);
+      }
+      if (!member.fusions.empty()) scene_.insert(ellipses.object(member.robot.name + " fusions"));
+    }
+  }
+
+  [[nodiscard]] Gaussian<Point2D> scaled(const Gaussian<Point2D>& g) const
+  {
+    return {g.mean, data_.fusionScale * data_.fusionScale * g.cov};
+  }
+
+  /// \param width of the ribbon [in the frame's unit]
+  void addPath(const SceneTrack& track, const Colour& colour, double width, double lift = 0)
   {
     Mesh path(colour);
-    for (const Polyline& piece : track.path) path.ribbon(piece, 0.5 * u(), z(kPathLayer));
+    for (const Polyline& piece : track.path) path.ribbon(piece, width * u(), z(kPathLayer) + lift);
     scene_.insert(path.object(track.name + " path"));
+  }
+
+  void addTrack(const SceneTrack& track, const Colour& colour)
+  {
+    addPath(track, colour, 0.5);
     if (!track.now) return;
     const Gaussian<Pose2D>& now = *track.now;
     const Point2D place{now.mean.x, now.mean.y};

@@ -28,6 +28,7 @@ Cover coverOf(const SceneData& data)
 {
   Cover cover;
   cover.add(data.robot);
+  for (const SceneMember& m : data.team) cover.add(m.robot), cover.add(m.target);
   for (const auto& t : data.targets) cover.add(t);
   for (const auto& l : data.landmarks) cover.add(l.position.mean);
   for (const Point2D& p : data.trueLandmarks) cover.add(p);

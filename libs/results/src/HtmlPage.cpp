@@ -31,6 +31,25 @@ std::string element(const char* tag, const std::string& text)
   return std::string("<") + tag + ">" + escaped(text) + "</" + tag + ">";
 }
 
+/// A path as a relative reference: what is not plain is a percent sign and its byte, and a colon is
+/// no scheme's.
+std::string reference(const std::string& path)
+{
+  constexpr char kHex[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : path)
+  {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '/' || c == '.' || c == '-' || c == '_' || c == '~';
+    if (plain)
+      out += c;
+    else
+      out += {'%', kHex[byte >> 4], kHex[byte & 15]};
+  }
+  return out;
+}
+
 const char* const kStyle = R"(
 *{box-sizing:border-box}
 body{margin:0 auto;max-width:62rem;padding:1.5rem 1rem 3rem;background:var(--paper);color:var(--ink-text);
@@ -41,10 +60,12 @@ h2{font-size:1.15rem;margin:2.2rem 0 .6rem;padding-bottom:.25rem;border-bottom:1
 .sub{margin:0}
 .banner{margin:1rem 0;padding:.7rem 1rem;border-radius:.4rem;background:#b42318;color:#fff;font-weight:600}
 .wide{overflow-x:auto}
+.wide+.wide{margin-top:1.2rem}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.93rem}
 th,td{padding:.3rem .6rem;text-align:right;border-bottom:1px solid var(--ink-grid);white-space:nowrap}
 th{font-weight:600;vertical-align:bottom;white-space:normal}
 th:first-child,td:first-child{text-align:left;padding-left:0;white-space:normal}
+a{color:var(--ink-blue)}
 figure{margin:1.2rem 0 1.8rem}
 figcaption{font-size:.93rem;margin-bottom:.4rem}
 svg{display:block;width:100%;height:auto}
@@ -80,6 +101,14 @@ void HtmlPage::paragraph(const std::string& text)
 {
   body_ += element("p", text) + "\n";
 }
+void HtmlPage::links(const std::vector<std::pair<std::string, std::string>>& textsAndPaths)
+{
+  body_ += "<ul>\n";
+  for (const auto& [text, path] : textsAndPaths)
+    body_ += "<li><a href=\"" + reference(path) + "\">" + escaped(text) + "</a></li>\n";
+  body_ += "</ul>\n";
+}
+
 void HtmlPage::preformatted(const std::string& text)
 {
   body_ += element("pre", text) + "\n";

@@ -4,8 +4,7 @@
 #include <slamot/results/HtmlPage.h>
 #include <slamot/results/TextFile.h>
 #include <slamot/results/hints.h>
-
-#include "keyNumbers.h"
+#include <slamot/results/keyNumbers.h>
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "keyNumbers.h"
+#include <slamot/results/keyNumbers.h>
 
 #include <slamot/math/statistics.h>
 #include <slamot/results/TextFile.h>
@@ -19,18 +19,6 @@ std::string fixed(double value, int decimals)
 std::string orDash(const std::optional<double>& value, int decimals, double unit = 1)
 {
   return value ? fixed(unit * *value, decimals) : "\u2013";
-}
-
-std::vector<std::string> errorRow(const std::string& name, const eval::ErrorSummary& e)
-{
-  return {name,
-          std::to_string(e.count),
-          orDash(e.positionMean, 4),
-          orDash(e.positionRmse, 4),
-          orDash(e.headingRmse, 2, math::radToDeg(1)),
-          orDash(e.neesMean, 2),
-          orDash(e.neesPositionMean, 2),
-          orDash(e.coverage95, 1, 100)};
 }
 
 void addTargetRows(Table& table, const std::string& name, const eval::TargetEvaluation& t)
@@ -97,11 +85,28 @@ void addParticleFacts(Table& table, const eval::Record& record)
 }
 }  // namespace
 
+std::vector<std::string> errorHeader()
+{
+  return {"",         "steps",    "position, mean [m]", "RMSE [m]", "heading RMSE [deg]",
+          "NEES (3)", "NEES (2)", "in 95% ellipse [%]"};
+}
+
+std::vector<std::string> errorRow(const std::string& name, const eval::ErrorSummary& e)
+{
+  return {name,
+          std::to_string(e.count),
+          orDash(e.positionMean, 4),
+          orDash(e.positionRmse, 4),
+          orDash(e.headingRmse, 2, math::radToDeg(1)),
+          orDash(e.neesMean, 2),
+          orDash(e.neesPositionMean, 2),
+          orDash(e.coverage95, 1, 100)};
+}
+
 Table errorTable(const RunView& run)
 {
   Table table;
-  table.header = {"",         "steps",    "position, mean [m]", "RMSE [m]", "heading RMSE [deg]",
-                  "NEES (3)", "NEES (2)", "in 95% ellipse [%]"};
+  table.header = errorHeader();
   const auto& e = run.evaluation;
   if (e.robot.all.count > 0) table.rows.push_back(errorRow("robot", e.robot.all));
   if (e.robot.atScans.count > 0) table.rows.push_back(errorRow("robot, at scans", e.robot.atScans));

@@ -19,8 +19,7 @@ std::vector<std::string> robotsIn(const std::string& folder)
   try
   {
     const Json team = Json::parse(file);
-    for (const Json& robot : team.at("robots"))
-      out.push_back(robot.at("name").get<std::string>());
+    for (const Json& robot : team.at("robots")) out.push_back(robot.at("name").get<std::string>());
   }
   catch (const Json::exception&)
   {

@@ -126,11 +126,20 @@ FusionSummary summarise(const std::vector<fusion::FusionEvent>& events, const ev
   return out;
 }
 
+std::vector<FusionSummary> fusionsOf(const Team& team, const std::vector<RobotResult>& robots)
+{
+  const auto truths = truthsOf(team, robots);
+  std::vector<FusionSummary> out;
+  for (std::size_t r = 0; r < robots.size(); ++r)
+    out.push_back(summarise(team.events(r), robots[r].view.truth, truths));
+  return out;
+}
+
 std::string teamJson(const Team& team, const std::vector<RobotResult>& robots, std::uint64_t seed,
                      const results::Timing& timing)
 {
   const int target = team.options().target;
-  const auto truths = truthsOf(team, robots);
+  const auto fusions = fusionsOf(team, robots);
   Json list = Json::array();
   bool complete = true;
   Mean robotError, robotNees, targetError, targetNees;
@@ -150,9 +159,7 @@ std::string teamJson(const Team& team, const std::vector<RobotResult>& robots, s
                   {"target", t ? errorsJson(t->all) : Json(nullptr)}};
     if (t) robot["target"]["tracked_fraction"] = orNull(t->trackedFraction);
     const fusion::Member* const member = team.member(r);
-    robot["messages"] = member
-                            ? messagesJson(*member, summarise(team.events(r), view.truth, truths))
-                            : Json(nullptr);
+    robot["messages"] = member ? messagesJson(*member, fusions[r]) : Json(nullptr);
     list.push_back(std::move(robot));
   }
   const Json out = {
@@ -177,7 +184,7 @@ std::string teamJson(const Team& team, const std::vector<RobotResult>& robots, s
 
 std::string teamTable(const Team& team, const std::vector<RobotResult>& robots)
 {
-  const auto truths = truthsOf(team, robots);
+  const auto fusions = fusionsOf(team, robots);
   std::string out = "team, rule " + team.options().ruleName + "\n";
   char line[200];
   std::snprintf(line, sizeof line, "%-24s %9s %6s %9s %6s %7s %7s %6s %6s\n", "", "robot [m]",
@@ -188,7 +195,7 @@ std::string teamTable(const Team& team, const std::vector<RobotResult>& robots)
     const auto& all = robots[r].view.evaluation.robot.all;
     const auto* const t = targetOf(robots[r], team.options().target);
     const fusion::Member* const member = team.member(r);
-    const FusionSummary fusion = summarise(team.events(r), robots[r].view.truth, truths);
+    const FusionSummary& fusion = fusions[r];
     std::snprintf(line, sizeof line, "%-24s %9s %6s %9s %6s %7lld %7lld %6lld %6s\n",
                   robots[r].name.c_str(), cell(all.positionMean, "%.3f").c_str(),
                   cell(all.neesMean, "%.2f").c_str(),

@@ -20,6 +20,20 @@ struct SceneTrack
   std::optional<Gaussian<Pose2D>> now;  ///< where it is at the end; none: lost
 };
 
+/// What a robot believed of a place before and after a fusion.
+struct SceneFusion
+{
+  Gaussian<Point2D> before, after;
+};
+
+/// One robot of a team, drawn in a colour of its own: its path, thin the target as it tracks it,
+/// and 95% ellipses around some fusions, the rim before and filled after.
+struct SceneMember
+{
+  SceneTrack robot, target;
+  std::vector<SceneFusion> fusions;
+};
+
 /// A run as a scene, all in the map's frame.
 struct SceneData
 {
@@ -30,6 +44,8 @@ struct SceneData
   std::vector<Point2D> trueLandmarks;
   std::vector<Point2D> laserPoints;
   std::vector<core::WeightedPose> particles;  ///< at the end
+  std::vector<SceneMember> team;              ///< of a team: in place of robot and targets
+  double fusionScale = 1;  ///< the ellipses of fusions are drawn so many times as large
 };
 
 /// Writes a .3Dscene for SceneViewer3D: paths as ribbons, landmarks as posts on their 95% ellipses,

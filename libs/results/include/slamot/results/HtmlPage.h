@@ -3,6 +3,7 @@
 #include <slamot/results/Plot.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace slamot::results
@@ -25,6 +26,8 @@ class HtmlPage
   void heading(const std::string& text);
   void paragraph(const std::string& text);
   void table(const Table& table);
+  /// A list of links to files beside the page, by their paths from there.
+  void links(const std::vector<std::pair<std::string, std::string>>& textsAndPaths);
   void preformatted(const std::string& text);
   /// A plot with a caption.  Where gnuplot fails the page says so in its place, and goes on.
   void figure(const std::string& caption, const Figure& figure);

@@ -33,6 +33,10 @@ struct FusionSummary
                                       const eval::Truth& own,
                                       const std::map<int, const eval::Truth*>& truths);
 
+/// The same for each robot of a team.
+[[nodiscard]] std::vector<FusionSummary> fusionsOf(const Team& team,
+                                                   const std::vector<RobotResult>& robots);
+
 /// team.json: errors, consistency and messages by outcome, for each robot and on the mean.
 [[nodiscard]] std::string teamJson(const Team& team, const std::vector<RobotResult>& robots,
                                    std::uint64_t seed, const results::Timing& timing);

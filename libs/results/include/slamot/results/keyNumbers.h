@@ -5,6 +5,11 @@
 
 namespace slamot::results
 {
+/// The columns of a row of errors, the first for its name; and such a row.
+[[nodiscard]] std::vector<std::string> errorHeader();
+[[nodiscard]] std::vector<std::string> errorRow(const std::string& name,
+                                                const eval::ErrorSummary& e);
+
 /// Errors of robot and targets; no rows without truth.
 [[nodiscard]] Table errorTable(const RunView& run);
 

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <slamot/mrpt/Scene.h>
+#include <slamot/team/teamFigures.h>
+
+namespace slamot::apps
+{
+/// A team's run as what saveScene() draws: paths of all robots, the target as each tracks it, a few
+/// fusions of each, and the landmarks of all; of landmarks with identities, the surest of each.
+[[nodiscard]] mrpt::SceneData teamSceneOf(const std::string& title, const team::TeamView& team);
+}  // namespace slamot::apps
