@@ -152,13 +152,31 @@ class RealTimeRun
       if (message) note(message->sender, message->session);
       radio_.send(message ? message->sender : -1, self_, now, bytes);
     }
-    for (Bytes& bytes : radio_.receive(self_, now)) robot_.member->hear(std::move(bytes));
+    for (Bytes& bytes : radio_.receive(self_, now)) inbox_.push_back(std::move(bytes));
+    std::vector<Bytes> later;
+    for (Bytes& bytes : inbox_)
+      if (isForLater(bytes, now))
+        later.push_back(std::move(bytes));
+      else
+        robot_.member->hear(std::move(bytes));
+    inbox_ = std::move(later);
     const auto events = robot_.member->settle();
     for (const auto& event : events)
     {
       if (o_.onFusion) o_.onFusion(event);
       robot_.events.push_back(event);
     }
+  }
+
+  // Whether a message is of after the last step, as the next step or one after it will be: however
+  // long that takes.
+  [[nodiscard]] bool isForLater(const Bytes& bytes, double now) const
+  {
+    const auto decoded = fusion::decode(bytes);
+    const auto* const message = std::get_if<fusion::Message>(&decoded);
+    if (!message) return false;
+    const double time = message->estimate.time;
+    return time > pending_->step.time && time <= now + timing_.maxAge;
   }
 
   void exchangeBeacons()
@@ -226,6 +244,7 @@ class RealTimeRun
   std::optional<core::Step> next_;
   double late_ = 0;  // how long after its time the last step was taken in [s]
   std::unique_ptr<Pending> pending_;
+  std::vector<Bytes> inbox_;  // heard, for a later step
   LiveResult result_;
 };
 }  // namespace
