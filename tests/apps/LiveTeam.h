@@ -28,7 +28,6 @@ class LiveTeam
   {
     return std::string(SLAMOT_SOURCE_DIR) + "/" + path;
   }
-  static std::string config() { return source("config-ini/robot-ci.ini"); }
   /// So that tests side by side meet neither by name nor, mostly, by port.
   static std::string domain() { return std::to_string(::getpid() % 230); }
 
@@ -44,7 +43,7 @@ class LiveTeam
     const std::string name = "r" + std::to_string(robot);
     Words words = before;
     for (const std::string& word :
-         Words{SLAMOT_PROGRAM, "robot", config(), log(robot), "-o", folder.file(name), "--set",
+         Words{SLAMOT_PROGRAM, "robot", config, log(robot), "-o", folder.file(name), "--set",
                "dds.interface=lo", "--set", "dds.peers=127.0.0.1", "--set",
                "dds.domain=" + domain(), "--set", "dds.name=test-" + std::to_string(::getpid())})
       words.push_back(word);
@@ -62,5 +61,6 @@ class LiveTeam
   }
 
   TemporaryFolder folder;
+  std::string config = source("config-ini/robot-ci.ini");
 };
 }  // namespace slamot::test

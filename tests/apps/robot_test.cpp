@@ -41,7 +41,7 @@ void expectSameResult(const LiveTeam& team, int robot)
 
 void expectLockstepEqualsTeam(const LiveTeam& team, int robots, const Words& settings)
 {
-  std::string numbers, command = "team '" + LiveTeam::config() + "'";
+  std::string numbers, command = "team '" + team.config + "'";
   for (int r = 0; r < robots; ++r)
   {
     numbers += (r > 0 ? "," : "") + std::to_string(r);
@@ -76,6 +76,13 @@ int rowsAfter(const std::string& csv, double time)
 TEST(SlamotRobot, InLockstepTwoEqualTheirTeamToTheByte)
 {
   expectLockstepEqualsTeam(LiveTeam(40), 2, {});
+}
+
+TEST(SlamotRobot, InLockstepOneWithParticlesEqualsItsTeamToTheByte)
+{
+  LiveTeam team(25);
+  team.config = LiveTeam::source("config-ini/team-mixed.ini");
+  expectLockstepEqualsTeam(team, 2, {"--seed", "4"});
 }
 
 TEST(SlamotRobot, InLockstepAPoorRadioIsTheSameToo)
