@@ -112,8 +112,9 @@ class LiveRun
                   "use slamot team for that");
     const auto index = static_cast<std::size_t>(place - all.begin());
     method_ = team::methodsOf(config_, all.size())[index];
-    auto made = team::makeFilter(
-        config_, method_, team::contextOf(source_.starts(), number_, plan_.seed, o_.common.threads));
+    auto made =
+        team::makeFilter(config_, method_,
+                         team::contextOf(source_.starts(), number_, plan_.seed, o_.common.threads));
     live_.team = {all.begin(), all.end()};
     live_.session = static_cast<std::uint64_t>(live::wallTime() * 1e6);
     member_ =

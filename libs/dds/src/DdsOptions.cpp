@@ -43,7 +43,7 @@ std::string plain(const core::Params& p, const std::string& key, const std::stri
 
 std::string keysOf(core::Params& p)
 {
-  const std::string folder = plain(p, "security", p.text("security", kNone));
+  std::string folder = plain(p, "security", p.text("security", kNone));
   if (folder.empty()) return folder;
   for (const char* file : kKeyFiles)
     if (!fs::exists(fs::path(folder) / file))
