@@ -207,10 +207,9 @@ void addTiming(CLI::App& command, RobotCommand& o)
                   "What time in the log it is then [s] (default that of the log's first step)")
       ->type_name("LOGTIME");
   command
-      .add_option(
-          "--wait", o.wait,
-          "Wait for the others to be there before the clock begins [s], at most (default 0; "
-          "60 with --lockstep)")
+      .add_option("--wait", o.wait,
+                  "Wait until all hear each other before the clock begins [s], at most (default 0; "
+                  "60 with --lockstep)")
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("SECONDS");
 }

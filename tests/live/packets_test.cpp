@@ -33,6 +33,8 @@ TEST(Beacon, ReadsBackAsWritten)
   EXPECT_EQ(b->session, 42u);
   EXPECT_EQ(b->speed, 2.5);
   EXPECT_EQ(b->clock, 12.25);
+  EXPECT_FALSE(b->hearsAll);
+  EXPECT_TRUE(decodeBeacon(encode(Beacon{7, 42, 2.5, {}, true}))->hearsAll);
   EXPECT_FALSE(decodeBeacon(encode(Beacon{7, 42, 2.5, {}}))->clock);
   EXPECT_FALSE(decodeBeacon(encode(Beacon{7, 42, std::nan(""), 12.25})));
   EXPECT_FALSE(decodeBeacon(encode(Beacon{7, 42, 1, std::nan("")})));
@@ -61,7 +63,7 @@ TEST(Packets, HaveTheLayoutOfTheManual)
   EXPECT_EQ(a[17], 17);
   EXPECT_EQ(a[41], 1);
   EXPECT_EQ(std::string(b.begin(), b.begin() + 4), "SLT1");
-  EXPECT_EQ(b.size(), 36u);
+  EXPECT_EQ(b.size(), 37u);
   EXPECT_EQ(b[8], 42);
 }
 

@@ -10,7 +10,7 @@ namespace slamot::live
 namespace
 {
 constexpr char kLetters[] = "SLT1";
-constexpr std::size_t kSize = 4 + 4 + 8 + 8 + 8 + 4;
+constexpr std::size_t kSize = 4 + 4 + 8 + 8 + 8 + 1 + 4;
 }  // namespace
 
 Bytes encode(const Beacon& b)
@@ -21,6 +21,7 @@ Bytes encode(const Beacon& b)
       .add(b.session)
       .add(b.speed)
       .add(b.clock.value_or(kNone))
+      .add(static_cast<std::uint8_t>(b.hearsAll))
       .close();
 }
 
@@ -33,6 +34,7 @@ std::optional<Beacon> decodeBeacon(const Bytes& bytes)
   out.session = in.take<std::uint64_t>();
   out.speed = in.take<double>();
   const double clock = in.take<double>();
+  out.hearsAll = in.take<std::uint8_t>() != 0;
   if (!std::isfinite(out.speed) || std::isnan(clock)) return {};
   if (std::isfinite(clock)) out.clock = clock;
   return out;

@@ -79,7 +79,7 @@ class RealTimeRun
   bool awaitTeam()
   {
     const double until = wallTime() + timing_.waitS;
-    while (!peers_.areAllHeard() && wallTime() < until)
+    while (!(peers_.areAllHeard() && ready_.size() + 1 == o_.team.size()) && wallTime() < until)
     {
       if (isStopped()) return false;
       exchangeBeacons();
@@ -187,7 +187,8 @@ class RealTimeRun
       nextBeacon_ = wall + kBeaconPeriod;
       lastBeacon_ = wall;
       const auto clock = clock_ ? std::optional(clock_->at(wall)) : std::nullopt;
-      beacons_->publish(encode(Beacon{self_, o_.session, timing_.speed, clock}));
+      beacons_->publish(
+          encode(Beacon{self_, o_.session, timing_.speed, clock, peers_.areAllHeard()}));
     }
     for (const Bytes& bytes : beacons_->take())
       if (const auto beacon = decodeBeacon(bytes)) hear(*beacon, wallTime());
@@ -211,7 +212,9 @@ class RealTimeRun
   void hear(const Beacon& beacon, double wall)
   {
     note(beacon.sender, beacon.session);
-    if (!peers_.isOfTeam(beacon.sender) || !clock_) return;
+    if (!peers_.isOfTeam(beacon.sender)) return;
+    if (beacon.clock || beacon.hearsAll) ready_.insert(beacon.sender);
+    if (!clock_) return;
     const std::string who = "robot " + std::to_string(beacon.sender);
     const bool isNew = isNew_.erase(beacon.sender) > 0;
     if (isNew && !clock_->canFollow(beacon, wall))
@@ -237,6 +240,7 @@ class RealTimeRun
   RealTimeOptions timing_;
   int self_;
   Peers peers_;
+  std::set<int> ready_;  // who hears all, or waits for nobody
   std::set<int> isNew_;  // whose clock was not yet looked at
   std::unique_ptr<Topic> beacons_, estimates_;
   std::optional<TeamClock> clock_;          // none while the team is waited for

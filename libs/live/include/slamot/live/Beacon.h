@@ -13,6 +13,7 @@ struct Beacon
   std::uint64_t session = 0;    ///< higher after each start of the sender
   double speed = 1;             ///< of the log's clock against the wall's
   std::optional<double> clock;  ///< time in the log [s]; absent: it waits for the team
+  bool hearsAll = false;        ///< it has heard all others of the team
 };
 
 /// Little endian, layout in doc/team.md.

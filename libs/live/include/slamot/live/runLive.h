@@ -24,7 +24,7 @@ struct RealTimeOptions
   double speed = 1;               ///< of the log's clock against the wall's
   std::optional<double> startAt;  ///< when the team's clock begins, by wallTime(); absent: at once
   std::optional<double> clockZero;  ///< at what time in the log; absent: that of the first step
-  double waitS = 0;                 ///< waits for the others to be there [s], at most
+  double waitS = 0;                 ///< waits until all hear each other [s], at most
   double maxAge = 1;                ///< a robot so far behind its clock neither tells nor hears [s]
 };
 
