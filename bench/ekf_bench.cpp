@@ -17,6 +17,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "ekf/addProduct.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -24,6 +26,7 @@
 namespace
 {
 using namespace slamot;
+namespace ekf = slamot::filters::ekf;
 
 constexpr int kSeen = 20, kTarget = 6;
 constexpr double kSpacing = 4;         // [m], between landmarks on a square grid
@@ -193,7 +196,9 @@ void arithmeticFloor(benchmark::State& state)
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(kBlock, kBlock);
   for (auto _ : state)
   {
-    for (int i = 0; i < products; ++i) C.noalias() += A * B;
+    for (int i = 0; i < products; ++i)
+      ekf::addProduct(1, ekf::ReadOnly::of(A), ekf::ReadOnly::of(B), C.data(), C.outerStride(),
+                      false);
     benchmark::DoNotOptimize(C.data());
   }
 }
