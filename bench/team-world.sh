@@ -2,10 +2,10 @@
 # Two robots and a target across a world of 1000 m with 1600 landmarks, without exchange, with
 # covariance intersection and with one EKF for all: mean errors over time, in the manner of Figs. 3-5
 # of the paper on EKF-SLAMOT teams.
-#   bench/team-world.sh [SEEDS] [OUT]     (10 seeds, slamot-out/team-world)
+#   bench/team-world.sh [SEEDS] [OUT]     (3 seeds, slamot-out/team-world; ./dev build first)
 set -euo pipefail
 cd "$(dirname "$0")/.."
-seeds=${1:-10} out=${2:-slamot-out/team-world}
+seeds=${1:-3} out=${2:-slamot-out/team-world}
 slamot=${SLAMOT:-build/apps/slamot/slamot}
 rules="none ci centralized"
 mkdir -p "$out"
