@@ -3,6 +3,7 @@
 #include "dense.h"
 #include "filterRig.h"
 
+#include <slamot/core/Error.h>
 #include <slamot/laws/Drive.h>
 #include <slamot/laws/checkFilter.h>
 #include <slamot/models/RangeBearing.h>
@@ -257,17 +258,37 @@ TEST(EkfSlamot, PassesOverALandmark)
   const auto filter = test::makeFilter("ekf-slamot", kAccelerated);
   const Point2D close(1.003, 0.002), far(3, 4);
   double x = 0;
+  int closest = 0;  // sightings in one scan that were told to be close
   for (int k = 0; k <= 20; ++k)
   {
     const Pose2D here(x, 0, 0);
-    const auto e =
-        filter->process(scan(k, {sighting(here, close, 1), sighting(here, far, 2)})).estimate;
+    const auto update =
+        filter->process(scan(k, {sighting(here, close, 1), sighting(here, far, 2)}));
+    const core::Estimate& e = update.estimate;
     EXPECT_NEAR(e.robot.mean.x, x, 0.05) << k;
     EXPECT_NEAR(e.robot.mean.phi, 0, 0.05) << k;
     EXPECT_GT(math::smallestEigenvalue(e.robot.cov), -1e-12);
+    closest = std::max(closest, update.diagnostics.close);
     filter->process(motion(k + 0.5, {0.1, 0, 0}, 0.01));
     x += 0.1;
   }
+  EXPECT_EQ(closest, 1);
+}
+
+TEST(EkfSlamot, SaysSoWhereValuesAreAbsurd)
+{
+  const auto filter = test::makeFilter("ekf-slamot", kAccelerated);
+  const Pose2D here(0, 0, 0);
+  filter->process(scan(0, {sighting(here, {3, 1}, 1)}));
+  EXPECT_THROW(
+      {
+        for (int k = 1; k < 9; ++k)
+        {
+          filter->process(motion(k, {1e200, 1e200, 1}, 1e200));
+          filter->process(scan(k, {sighting(here, {3, 1}, 1)}));
+        }
+      },
+      core::Error);
 }
 
 // Table 1's world, among 100 landmarks that it passes at any range.

@@ -80,6 +80,7 @@ void Recorder::accept(const core::Step& step, const core::Update& update)
   scanPending_ = scanPending_ || step.landmarks || step.blobs;
   record_.observations += observationsOf(step);
   record_.particles = std::max(record_.particles, update.diagnostics.particles);
+  record_.close += static_cast<std::size_t>(update.diagnostics.close);
   addPairings(step, update);
   const bool sameInstant =
       !record_.rows.empty() && record_.rows.back().time >= step.time - kSameInstant;

@@ -115,6 +115,9 @@ std::string summaryTable(const eval::Record& record, const eval::Evaluation& e, 
             " of the robot's steps, where its covariance is singular, as at an exact start\n";
   text += landmarkLine(e.landmarks);
   text += associationLine(e.association);
+  if (record.close > 0)
+    text += left("close") + std::to_string(record.close) +
+            " sightings, too near for polar coordinates, taken along their ray\n";
   int dropped = 0;
   for (const eval::StepRow& s : record.steps) dropped += s.dropped;
   if (dropped > 0)

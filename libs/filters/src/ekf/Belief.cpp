@@ -2,9 +2,10 @@
 
 #include "Rest.h"
 
+#include <slamot/core/Error.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <stdexcept>
 
 namespace slamot::filters::ekf
 {
@@ -154,7 +155,9 @@ void Belief::update(const std::vector<SightingRows>& rows)
   S.diagonal() += variance;
   const Eigen::LLT<Eigen::MatrixXd> llt(S);
   if (llt.info() != Eigen::Success)
-    throw std::domain_error("the innovations' covariance is not positive definite");
+    throw core::Error(core::ExitStatus::kNonsense, "ekf-slamot",
+                      "the sightings of a step have no covariance that makes sense",
+                      "look for absurd deviations in the log");
   // V = W L⁻ᵀ: then W S⁻¹ Wᵀ = V Vᵀ, of which one triangle is enough.
   llt.matrixU().solveInPlace<Eigen::OnTheRight>(W_);
   llt.matrixL().solveInPlace(nu);

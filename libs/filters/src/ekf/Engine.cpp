@@ -2,6 +2,7 @@
 
 #include "relate.h"
 
+#include <slamot/core/Error.h>
 #include <slamot/core/checkStep.h>
 
 #include <limits>
@@ -81,8 +82,19 @@ core::Update EngineOf<Motion>::process(int robot, const core::Step& step)
   last = step.time;
   time_ = std::max(time_, step.time);
   core::Update out;
-  if (step.landmarks || step.blobs) takeScan(belief_.robot(robot), step, out.pairings);
+  if (step.landmarks || step.blobs)
+  {
+    takeScan(belief_.robot(robot), step, out.pairings);
+    // In polar coordinates a turn of the robot moves the bearing alone, by as much.
+    out.diagnostics.close = static_cast<int>(std::count_if(
+        rows_.begin(), rows_.end(),
+        [](const SightingRows& r) { return r.byRobot(0, 2) != 0 || r.byRobot(1, 2) != -1; }));
+  }
   if (step.blobs) dropLost(step.time);
+  if (!belief_.x().allFinite() || !belief_.P().diagonal().allFinite())
+    throw core::Error(core::ExitStatus::kNonsense, "ekf-slamot",
+                      "the estimate overflowed at a step",
+                      "look for absurd values of odometry or deviations in the log");
   out.estimate = estimate(robot);
   return out;
 }

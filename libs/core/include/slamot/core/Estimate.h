@@ -64,6 +64,8 @@ struct Diagnostics
   std::optional<double> ess;  ///< effective sample size before resampling [particles]
   int particles = 0;          ///< 0: not a particle filter
   bool resampled = false;
+  /// Sightings so near that polar coordinates would not do, taken in the frame of their ray.
+  int close = 0;
 };
 
 struct Update

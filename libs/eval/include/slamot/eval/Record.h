@@ -76,6 +76,7 @@ struct Record
   std::vector<LaserRow> lasers;  ///< empty unless asked for
   std::size_t observations = 0;  ///< sightings, blobs and laser scans taken in
   int particles = 0;             ///< 0: not a particle filter
+  std::size_t close = 0;         ///< sightings too near for polar coordinates; not kept in files
   bool complete = false;         ///< false: interrupted, or the input ended too early
 
   /// Whether landmarks carry the sensor's identities: all sightings with one were paired by it.
