@@ -213,6 +213,26 @@ TEST(EkfSlamot, TakesOneSightingOfALandmarkAScanAndNoneWithoutIdentity)
   EXPECT_EQ(test::landmarks(update.estimate).at(7).sightings, 2);
 }
 
+// A post was once read as 7, which is elsewhere: what 7 itself shows must win in the end.
+TEST(EkfSlamot, RecoversFromAMisreadIdentity)
+{
+  const auto filter = test::makeFilter("ekf-slamot", kAccelerated);
+  const Pose2D here(0, 0, 0);
+  filter->process(scan(0, {sighting(here, {9, 1}, 7), sighting(here, {3, 3}, 1)}));
+  using Outcome = core::Pairing::Outcome;
+  for (int k = 1; k <= 4; ++k)
+  {
+    const auto update =
+        filter->process(scan(k, {sighting(here, {3, -4}, 7), sighting(here, {3, 3}, 1)}));
+    EXPECT_EQ(update.pairings[0].outcome, k < 3    ? Outcome::kRejected
+                                          : k == 3 ? Outcome::kNew
+                                                   : Outcome::kKnown)
+        << k;
+    EXPECT_EQ(update.pairings[1].outcome, Outcome::kKnown);
+  }
+  EXPECT_NEAR(test::landmarks(filter->estimate()).at(7).position.mean.y, -4, 0.2);
+}
+
 TEST(EkfSlamot, ForgetsALandmarkThatNothingConfirms)
 {
   const auto filter = test::makeFilter(

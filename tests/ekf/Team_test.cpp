@@ -152,18 +152,24 @@ TEST(EkfTeam, RefusesNonsenseAndStaysAsItWas)
   const auto filter = underWay();
   const std::string before = bytesOf(*filter);
   const auto sound = evidence(*filter, random);
-  auto nan = sound, small = sound, indefinite = sound;
+  auto nan = sound, small = sound, indefinite = sound, short_ = sound, turned = sound;
+  short_.innovation = sound.innovation.head(2).eval();
+  turned.H(0, 1) = 0.5;
   nan.innovation[3] = std::nan("");
   small.H = sound.H.leftCols(8).eval();
   indefinite.cov(0, 0) = -1;
   for (const auto rule : {core::FusionRule::kCi, core::FusionRule::kIci, core::FusionRule::kPaper})
-    for (const auto* wrong : {&nan, &small, &indefinite})
+    for (const auto* wrong : {&nan, &small, &indefinite, &short_})
     {
       core::FusionOptions options;
       options.rule = rule;
       EXPECT_THROW(filter->fuse(*wrong, options), core::Error);
       EXPECT_TRUE(bytesOf(*filter) == before);
     }
+  core::FusionOptions paper;
+  paper.rule = core::FusionRule::kPaper;
+  EXPECT_THROW(filter->fuse(turned, paper), core::Error);
+  EXPECT_TRUE(bytesOf(*filter) == before);
 }
 
 TEST(EkfTeam, PredictsAForeignTargetAsItsOwn)
@@ -185,6 +191,40 @@ TEST(EkfTeam, PredictsAForeignTargetAsItsOwn)
                 .cwiseAbs()
                 .maxCoeff(),
             1e-12);
+}
+
+// A target that waits for its heading has no velocity to tell, whatever its state holds.
+TEST(EkfTeam, DoesNotTellOfATargetWithoutHeading)
+{
+  core::Config config = core::Config::parse(
+      "[ekf-slamot]\ntarget_motion=differential-drive\ntarget_speed_mps=2\n"
+      "target_turn_rate_deg_per_s=0\ntarget_speed_noise_mps=0.1\n"
+      "target_turn_rate_noise_deg_per_s=1\n",
+      "test");
+  core::Params params(config, "ekf-slamot");
+  EkfSlamot filter(params, {});
+  int told = 0;
+  for (int k = 0; k < 20; ++k)
+  {
+    core::Step step;
+    step.time = 0.2 * k;
+    core::Blob blob;
+    blob.label = "target";
+    blob.id = 4;
+    const double x = 10 - 2 * step.time, y = 3;  // westwards
+    blob.range = std::hypot(x, y);
+    blob.bearing = std::atan2(y, x);
+    blob.rangeStd = 0.1;
+    blob.bearingStd = 0.01;
+    step.blobs.emplace().blobs = {blob};
+    EXPECT_EQ(filter.process(step).estimate.targets.size(), 1u);
+    const auto joint = filter.robotAndTarget(4);
+    EXPECT_TRUE(k > 0 || joint.targetSize() == 0);
+    if (joint.targetSize() == 0) continue;
+    ++told;
+    EXPECT_LT(joint.mean[5], -1) << k;
+  }
+  EXPECT_GT(told, 5);
 }
 
 // A robot that shares one EKF with another is the two of them: each sees landmarks of the other.

@@ -24,6 +24,8 @@ Receiver::Options receiverOptions(const TeamOptions& o, int number, const std::s
   out.senders = team;
   out.senders.erase(number);
   out.identity = number;
+  out.believeIdentities = o.mateIdentities;
+  out.mateSpeed = o.mateSpeed;
   out.candidateGate = o.candidateGate;
   out.targetGate = o.targetGate;
   out.maxAge = o.maxAge;
@@ -72,7 +74,7 @@ bool Member::isAhead(const Bytes& bytes) const
   const auto* const message = std::get_if<Message>(&decoded);
   if (!message) return false;
   const double ahead = message->estimate.time - last_.time;
-  return ahead > 0 && ahead <= options_.maxAge;
+  return ahead > Receiver::Options{}.futureTolerance && ahead <= options_.maxAge;
 }
 
 std::vector<FusionEvent> Member::settle()

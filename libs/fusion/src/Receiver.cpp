@@ -101,9 +101,10 @@ Receipt Receiver::receive(const Bytes& bytes, double now, core::TeamFilter& filt
     else
     {
       last_[m.sender] = {m.session, m.sequence};
-      const RobotAndTarget& e = m.estimate;
-      mates_[m.sender] = {e.time, {{e.mean[0], e.mean[1]}, e.cov.topLeftCorner<2, 2>()}};
       fuse(m, now, filter, receipt);
+      const RobotAndTarget& e = m.estimate;
+      if (receipt.outcome != Outcome::kTargetGateFailed)
+        mates_[m.sender] = {e.time, {{e.mean[0], e.mean[1]}, e.cov.topLeftCorner<2, 2>()}};
     }
   }
   counts_.add(receipt.outcome);
@@ -161,7 +162,7 @@ void Receiver::fuse(const Message& m, double now, core::TeamFilter& filter, Rece
 bool Receiver::couldBeAnother(const core::Evidence& place, const RobotAndTarget& own, int sender,
                               double now) const
 {
-  constexpr double kFresh = 5, kSpeed = 3;  // [s]: older ones tell nothing; [m/s] at most
+  constexpr double kFresh = 5;  // [s]: older ones tell nothing
   const Vector2 at = place.innovation + own.mean.head<2>();
   return std::any_of(mates_.begin(), mates_.end(),
                      [&](const auto& entry)
@@ -170,8 +171,9 @@ bool Receiver::couldBeAnother(const core::Evidence& place, const RobotAndTarget&
                        const double age = std::abs(now - mate.time);
                        if (number == sender || age > kFresh) return false;
                        const Vector2 off = at - Vector2(mate.place.mean.x, mate.place.mean.y);
-                       const MatrixXd cov = mate.place.cov + place.cov +
-                                            std::pow(kSpeed * age, 2) * Matrix2::Identity();
+                       const MatrixXd cov =
+                           mate.place.cov + place.cov +
+                           std::pow(options_.mateSpeed * age, 2) * Matrix2::Identity();
                        return Gate(off, cov, options_.candidateGate).passed;
                      });
 }
@@ -180,7 +182,9 @@ void Receiver::chooseCandidate(const Message& m, double now, const RobotAndTarge
                                const RobotAndTarget& own, int shared,
                                std::optional<core::Evidence>& evidence, Receipt& receipt)
 {
-  const std::vector<Candidate>& candidates = m.candidates;
+  std::vector<Candidate> candidates = m.candidates;
+  if (!options_.believeIdentities)
+    for (Candidate& c : candidates) c.id = core::kNoId;
   // A sensor that knows this robot says so: then it is none of the unknown ones.
   const bool known = options_.identity != core::kNoId &&
                      std::any_of(candidates.begin(), candidates.end(),

@@ -26,6 +26,10 @@ Message Sender::make(const core::TeamFilter& filter, const core::Step& step, int
   m.frame = options_.frame;
   m.estimate = filter.robotAndTarget(options_.target);
   if (m.estimate.targetSize() == 0) m.estimate.target = core::kNoId;
+  // A target of known speed has a singular covariance, which is no message: a little more doubt.
+  constexpr double kDoubt = 1e-6;  // variance [m²/s²]
+  for (int i = core::RobotAndTarget::kRobot + 2; i < m.estimate.mean.size(); ++i)
+    m.estimate.cov(i, i) += kDoubt;
   if (!step.blobs || step.time != m.estimate.time) return m;
   for (const core::Blob& b : step.blobs->blobs)
   {

@@ -27,6 +27,7 @@ TeamOptions TeamOptions::from(core::Config& config, std::uint64_t seed)
   out.target = p.integer("target", -1, 1'000'000'000, 0);
   out.mateLabel = p.text("mate_label", "robot");
   out.mateIdentities = p.flag("mate_identities", false);
+  out.mateSpeed = p.nonNegative("mate_speed_mps", out.mateSpeed);
   out.frame = p.text("frame", "map");
   out.candidateGate = p.probability("candidate_gate_probability", out.candidateGate);
   out.targetGate = p.probability("target_gate_probability", out.targetGate);

@@ -33,6 +33,8 @@ class TeamRun
     for (std::size_t r = 0; r < robots_.size(); ++r)
       if (next_[r] && next_[r]->time == now) moving.push_back(r);
     for (const std::size_t r : moving)
+      if (robots_[r].move) robots_[r].move(*next_[r]);
+    for (const std::size_t r : moving)
       updates_[r] = robots_[r].member ? robots_[r].member->process(*next_[r])
                                       : robots_[r].filter->process(*next_[r]);
     exchange(moving, now);
@@ -67,9 +69,9 @@ class TeamRun
       Member* const from = robots_[r].member;
       if (!from || !from->isDue()) continue;
       const Bytes bytes = from->tell();
-      for (const TeamRobot& to : robots_)
-        if (to.member && to.member != from)
-          radio_.send(from->number(), to.member->number(), now, bytes);
+      for (std::size_t to = 0; to < robots_.size(); ++to)
+        if (next_[to] && robots_[to].member && to != r)
+          radio_.send(from->number(), robots_[to].member->number(), now, bytes);
     }
     for (const std::size_t r : moving)
     {

@@ -42,16 +42,13 @@ Values runTeam(Trial& trial)
     runs.push_back({&recorders[r]->record(), &trial.robots[r].truth()});
     truths[static_cast<int>(r)] = runs.back().truth;
   }
-  // One map frame, one alignment.
-  const auto frame = eval::alignment(runs, trial.evaluation.align, trial.evaluation.maxTruthGap);
+  const auto evaluations = eval::evaluateTogether(runs, trial.evaluation);
   std::vector<Values> robots;
   for (std::size_t r = 0; r < team.size(); ++r)
   {
-    const auto evaluation =
-        eval::evaluate(*runs[r].record, *runs[r].truth, trial.evaluation, frame.value_or(Pose2D()));
     MessageFigures figures;
     if (team.member(r)) figures = figuresOf(team, r, *runs[r].truth, truths);
-    robots.push_back(measure(*runs[r].record, evaluation, team.member(r) ? &figures : nullptr));
+    robots.push_back(measure(*runs[r].record, evaluations[r], team.member(r) ? &figures : nullptr));
   }
   return meanOf(robots);
 }

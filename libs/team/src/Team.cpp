@@ -14,7 +14,20 @@ class SharedFilter : public core::Filter
 {
  public:
   SharedFilter(filters::CentralizedEkf& ekf, int robot) : ekf_(ekf), robot_(robot) {}
-  core::Update process(const core::Step& step) override { return ekf_.process(robot_, step); }
+  /// The step's motion alone.
+  void move(core::Step step)
+  {
+    step.landmarks.reset();
+    step.blobs.reset();
+    ekf_.process(robot_, step);
+  }
+  /// What the step shows, after move().
+  core::Update process(const core::Step& step) override
+  {
+    core::Step scan = step;
+    scan.odometry.reset();
+    return ekf_.process(robot_, scan);
+  }
   [[nodiscard]] core::Estimate estimate() const override { return ekf_.estimate(robot_); }
 
  private:
@@ -91,17 +104,24 @@ Team::Team(core::Config& config, const std::vector<Log>& logs, std::uint64_t see
   std::vector<core::FilterContext> contexts;
   for (std::size_t r = 0; r < logs.size(); ++r)
     contexts.push_back(contextOf(logs[r].starts, logs[r].number, seed, threads));
+  const std::set<int> numbers = numbersOf(logs);
   methods_ = methodsOf(config, logs.size());
   if (options_.centralized)
     centralize(config, contexts, logs);
   else
-    gather(config, contexts, logs);
+    gather(config, contexts, logs, numbers);
   for (std::size_t r = 0; r < logs.size(); ++r)
-    robots_.push_back({logs[r].source,
-                       filters_[r].get(),
-                       options_.centralized ? nullptr : members_[r].get(),
-                       {},
-                       {}});
+  {
+    fusion::TeamRobot robot;
+    robot.source = logs[r].source;
+    robot.filter = filters_[r].get();
+    if (options_.centralized)
+      robot.move = [shared = static_cast<SharedFilter*>(filters_[r].get())](const core::Step& step)
+      { shared->move(step); };
+    else
+      robot.member = members_[r].get();
+    robots_.push_back(std::move(robot));
+  }
 }
 
 void Team::centralize(core::Config& config, const std::vector<core::FilterContext>& contexts,
@@ -121,9 +141,8 @@ void Team::centralize(core::Config& config, const std::vector<core::FilterContex
 }
 
 void Team::gather(core::Config& config, const std::vector<core::FilterContext>& contexts,
-                  const std::vector<Log>& logs)
+                  const std::vector<Log>& logs, const std::set<int>& numbers)
 {
-  const std::set<int> numbers = numbersOf(logs);
   for (std::size_t r = 0; r < logs.size(); ++r)
   {
     auto made = makeFilter(config, methods_[r], contexts[r]);

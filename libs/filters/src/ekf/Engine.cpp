@@ -30,8 +30,7 @@ EngineOf<Motion>::EngineOf(const Settings& settings, const Motion& motion,
                 Vector3(pose.mean.x, pose.mean.y, pose.mean.phi), pose.cov);
     times_.push_back(starts.time.value_or(time_));
     time_ = std::max(time_, times_.back());
-    for (const auto& [id, start] : starts.targets)
-      if (!targetWith(id)) startTarget(id, start, starts.time.value_or(0));
+    for (const auto& [id, start] : starts.targets) startTarget(id, start, starts.time.value_or(0));
   }
 }
 
@@ -39,8 +38,11 @@ template <class Motion>
 void EngineOf<Motion>::startTarget(int id, const core::ObjectStart& start, double time)
 {
   if (!start.value[core::ObjectStart::kX] || !start.value[core::ObjectStart::kY]) return;
+  const State state = motion_.start(start);
+  for (std::size_t t = 0; t < targets_.size(); ++t)
+    if (tracks_.list()[t].id == id) return addKnowledge(targets_[t], state);
   tracks_.addStart(id, time);
-  addTarget(motion_.start(start));
+  addTarget(state);
 }
 
 template <class Motion>
@@ -49,6 +51,26 @@ void EngineOf<Motion>::addTarget(const State& state)
   const int slot = belief_.addTarget();
   belief_.set(belief_.target(slot), state.x, state.P);
   targets_.push_back({slot, state});
+}
+
+// Another robot's knowledge of the same start, its error independent.
+template <class Motion>
+void EngineOf<Motion>::addKnowledge(const Target& target, const State& known)
+{
+  const int j = belief_.target(target.slot);
+  const Belief::Rows H{{j}, {Eigen::MatrixXd::Identity(kSize, kSize)}};
+  const Eigen::MatrixXd W = belief_.product(H);
+  Eigen::Matrix<double, kSize, 1> innovation = known.x - belief_.x().template segment<kSize>(j);
+  if constexpr (Motion::kAngle >= 0)
+    innovation[Motion::kAngle] = math::wrapToPi(innovation[Motion::kAngle]);
+  Eigen::Matrix<double, kSize, kSize> S = Belief::innovationCov(H, W) + known.P;
+  S.diagonal().array() += 1e-12;  // both may know a coordinate exactly
+  const Eigen::Matrix<double, kSize, kSize> inverse = S.inverse();
+  math::IntersectionUpdate update;
+  update.gain = inverse * innovation;
+  update.reduction = 0.5 * (inverse + inverse.transpose());
+  belief_.fuse(H, W, update);
+  wrapAngles();
 }
 
 template <class Motion>
@@ -67,7 +89,8 @@ const typename EngineOf<Motion>::Target* EngineOf<Motion>::targetWith(int id) co
   for (std::size_t t = 0; t < targets_.size(); ++t)
   {
     const Track& track = tracks_.list()[t];
-    if (track.confirmed && track.identified && track.id == id) return &targets_[t];
+    if (track.confirmed && track.identified && track.id == id)
+      return Motion::hasVelocity(targets_[t].state) ? &targets_[t] : nullptr;
   }
   return nullptr;
 }
@@ -133,7 +156,7 @@ void EngineOf<Motion>::takeScan(int robot, const core::Step& step,
   if (step.landmarks) landmarks = map_.match(robot, *step.landmarks, step.time, rows_);
   if (step.blobs) matchTargets(robot, *step.blobs, step.time, blobs);
   std::vector<core::Pairing> ofMates;
-  if (step.blobs) matchMates(robot, *step.blobs, ofMates);
+  if (step.blobs) matchMates(robot, *step.blobs, step.time, ofMates);
   belief_.update(rows_);
   wrapAngles();
   if (step.landmarks)
@@ -188,7 +211,14 @@ void EngineOf<Motion>::matchTargets(int robot, const core::BlobScan& scan, doubl
 }
 
 template <class Motion>
-void EngineOf<Motion>::matchMates(int robot, const core::BlobScan& scan,
+double EngineOf<Motion>::noiseOf(int robot, int mate, double time) const
+{
+  const auto it = mateSeen_.find({robot, mate});
+  return it == mateSeen_.end() ? 1 : settings_.noiseAfter(time - it->second);
+}
+
+template <class Motion>
+void EngineOf<Motion>::matchMates(int robot, const core::BlobScan& scan, double time,
                                   std::vector<core::Pairing>& pairings)
 {
   if (mates_.label.empty()) return;
@@ -206,7 +236,7 @@ void EngineOf<Motion>::matchMates(int robot, const core::BlobScan& scan,
       const int id = mates_.ids[static_cast<std::size_t>(other)];
       const bool isAnother = blob.id != core::kNoId && id != core::kNoId && blob.id != id;
       if (belief_.robot(other) == robot || isAnother ||
-          !relate(belief_, robot, belief_.robot(other), eye, ray, o))
+          !relate(belief_, robot, belief_.robot(other), eye, ray, o, noiseOf(robot, other, time)))
         continue;
       const double gate = ray.hasRange ? settings_.gates.inner : settings_.gates.inner1;
       candidates_.push_back(
@@ -222,8 +252,10 @@ void EngineOf<Motion>::matchMates(int robot, const core::BlobScan& scan,
     const Ray ray = settings_.ray(scan.blobs[k]);
     Innovation o;
     const int other = belief_.robot(matches[k]);
-    if (relate(belief_, robot, other, eye, ray, o))
-      rows_.push_back(ekf::rowsOf(robot, other, o, ray));
+    const double noise = noiseOf(robot, matches[k], time);
+    if (!relate(belief_, robot, other, eye, ray, o, noise)) continue;
+    rows_.push_back(ekf::rowsOf(robot, other, o, ray, noise));
+    mateSeen_[{robot, matches[k]}] = time;
   }
 }
 
@@ -240,7 +272,7 @@ void EngineOf<Motion>::settleTargets(int robot, const BlobScan& scan, double tim
       const auto t = static_cast<std::size_t>(scan.matches[k]);
       Target& target = targets_[t];
       State state = stateOf(target);
-      const Gaussian<Point2D> seenAt = invert(eyeOf(belief_, robot), ray);
+      const Gaussian<Point2D> seenAt = seenPlace(robot, ray);
       constexpr int kOther = kSize - 2;  // than the place, which stays as it is
       if (motion_.afterCorrection(state, ray.hasRange ? &seenAt : nullptr))
         belief_.set(belief_.target(target.slot) + 2, state.x.template tail<kOther>(),
@@ -271,6 +303,19 @@ void EngineOf<Motion>::birth(int robot, const Ray& ray)
   addTarget(motion_.birth(place));
   const int j = belief_.target(targets_.back().slot);
   belief_.correlate(j, robot, placeByRobot(eye, place.mean));
+  if constexpr (Motion::kAngle >= 0) targets_.back().state.anchorCov = seenPlace(robot, ray).cov;
+}
+
+// The way from one such place to another gives a target its heading: what the robot's own errors
+// share at both is left out, on the safe side.
+template <class Motion>
+Gaussian<Point2D> EngineOf<Motion>::seenPlace(int robot, const Ray& ray) const
+{
+  const Eye eye = eyeOf(belief_, robot);
+  Gaussian<Point2D> out = invert(eye, ray);
+  const auto J = placeByRobot(eye, out.mean);
+  out.cov += J * belief_.P().template block<3, 3>(robot, robot) * J.transpose();
+  return out;
 }
 
 template <class Motion>

@@ -5,6 +5,8 @@
 #include <slamot/filters/EkfSlamot.h>
 #include <slamot/models/TargetMotion.h>
 
+#include <map>
+
 namespace slamot::filters
 {
 /// The filter without its target model's type, and for any number of robots.
@@ -60,12 +62,16 @@ class EngineOf : public EkfSlamot::Engine
 
   void startTarget(int id, const core::ObjectStart& start, double time);
   void addTarget(const State& state);
+  void addKnowledge(const Target& target, const State& known);
   [[nodiscard]] State stateOf(const Target& target) const;
   void moveRobot(int robot, const Gaussian<Pose2D>& increment);
   void moveTargets(double dt);
   void takeScan(int robot, const core::Step& step, std::vector<core::Pairing>& pairings);
   void matchTargets(int robot, const core::BlobScan& scan, double time, BlobScan& out);
-  void matchMates(int robot, const core::BlobScan& scan, std::vector<core::Pairing>& pairings);
+  void matchMates(int robot, const core::BlobScan& scan, double time,
+                  std::vector<core::Pairing>& pairings);
+  [[nodiscard]] double noiseOf(int robot, int mate, double time) const;
+  [[nodiscard]] Gaussian<Point2D> seenPlace(int robot, const Ray& ray) const;
   void settleTargets(int robot, const BlobScan& scan, double time,
                      std::vector<core::Pairing>& pairings);
   void birth(int robot, const Ray& ray);
@@ -82,9 +88,10 @@ class EngineOf : public EkfSlamot::Engine
   Belief belief_;
   Map map_;
   Tracks tracks_;
-  std::vector<Target> targets_;  // as tracks_
-  std::vector<double> times_;    // of each robot's last step
-  double time_;                  // of the latest
+  std::vector<Target> targets_;                     // as tracks_
+  std::vector<double> times_;                       // of each robot's last step
+  double time_;                                     // of the latest
+  std::map<std::pair<int, int>, double> mateSeen_;  // by whom, which: when last
   std::vector<SightingRows> rows_;
   std::vector<Candidate> candidates_;
 };

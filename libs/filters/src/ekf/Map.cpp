@@ -4,9 +4,15 @@
 #include "relate.h"
 
 #include <set>
+#include <tuple>
 
 namespace slamot::filters::ekf
 {
+namespace
+{
+constexpr int kMostRejections = 3;  // in a row, and no fewer than the sightings before
+}
+
 void Map::visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const
 {
   std::vector<std::pair<int, int>> confirmed;  // id, slot
@@ -31,7 +37,8 @@ bool Map::isInReach(int robot, const core::LandmarkScan& scan) const
   if (moved > 0.5 * settings_.localRadius) return false;
   if (settings_.association != Association::kKnown)
     return std::all_of(scan.sightings.begin(), scan.sightings.end(),
-                       [&](const core::Sighting& s) { return moved + s.range < 0.8 * reach_; });
+                       [&](const core::Sighting& s)
+                       { return moved + s.range + slack(robot, s) <= reach_; });
   return std::all_of(scan.sightings.begin(), scan.sightings.end(),
                      [&](const core::Sighting& s)
                      {
@@ -40,16 +47,35 @@ bool Map::isInReach(int robot, const core::LandmarkScan& scan) const
                      });
 }
 
-void Map::keepInReach(int robot, const core::LandmarkScan& scan)
+// How far from where a sighting seems to be the landmark can be that it is of.
+double Map::slack(int robot, const core::Sighting& s) const
+{
+  const Ray ray = settings_.ray(s);
+  const auto& P = belief_.P();
+  const double own =
+      ray.varRange + ray.range * ray.range * (ray.varBearing + P(robot + 2, robot + 2));
+  const double most = 2 * (largestVar_ + P(robot, robot) + P(robot + 1, robot + 1) + own);
+  return std::sqrt(2 * settings_.gates.outer * most);
+}
+
+void Map::keepInReach(int robot, const core::LandmarkScan& scan, double time)
 {
   if (settings_.localRadius <= 0 || entries_.empty() || isInReach(robot, scan)) return;
   belief_.spread();
+  forgetUnconfirmed(time);
+  largestVar_ = 0;
+  for (int s = 0; s < belief_.landmarks(); ++s)
+  {
+    const int j = belief_.landmark(s);
+    largestVar_ = std::max(largestVar_, belief_.P()(j, j) + belief_.P()(j + 1, j + 1));
+  }
   const auto& x = belief_.x();
   centre_ = {x[robot], x[robot + 1]};
   reach_ = settings_.localRadius;
   // Without identities, all that a sighting may be of must be local.
   if (settings_.association != Association::kKnown)
-    for (const core::Sighting& s : scan.sightings) reach_ = std::max(reach_, 2 * s.range);
+    for (const core::Sighting& s : scan.sightings)
+      reach_ = std::max(reach_, 1.5 * (s.range + slack(robot, s)));
   std::set<int> local;
   for (const core::Sighting& s : scan.sightings)
     if (const auto it = slotOf_.find(s.id); it != slotOf_.end()) local.insert(it->second);
@@ -66,7 +92,7 @@ void Map::keepInReach(int robot, const core::LandmarkScan& scan)
 Map::Scan Map::match(int robot, const core::LandmarkScan& scan, double time,
                      std::vector<SightingRows>& rows)
 {
-  keepInReach(robot, scan);
+  keepInReach(robot, scan, time);
   Scan out;
   for (const core::Sighting& s : scan.sightings) out.rays.push_back(settings_.ray(s));
   out.matches.assign(out.rays.size(), kNew);
@@ -81,11 +107,18 @@ Map::Scan Map::match(int robot, const core::LandmarkScan& scan, double time,
     const int slot = out.matches[k], object = belief_.landmark(slot);
     const double n = noise(entries_[static_cast<std::size_t>(slot)], time);
     Innovation o;
-    // One that is nowhere near what it says it is was misread.
+    Entry& entry = entries_[static_cast<std::size_t>(slot)];
     if (relate(belief_, robot, object, eye, out.rays[k], o, n) && o.d2 <= settings_.gates.outer)
+    {
       rows.push_back(rowsOf(robot, object, o, out.rays[k], n));
-    else
-      out.matches[k] = kRejected;
+      entry.rejections = 0;
+      continue;
+    }
+    // One that is nowhere near what it says it is was misread; or those before were.
+    out.matches[k] = kRejected;
+    if (++entry.rejections < std::max(kMostRejections, entry.sightings)) continue;
+    forget(slot);
+    out.matches[k] = kNew;
   }
   return out;
 }
@@ -135,6 +168,10 @@ void Map::matchByPlace(int robot, double time, Scan& out)
     }
   }
   if (settings_.association == Association::kNearest) return matchGreedily(candidates, out.matches);
+  // The nearest first, so that a search that must end early has tried those.
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const PossiblePair& a, const PossiblePair& b)
+                   { return std::tie(a.sighting, a.d2) < std::tie(b.sighting, b.d2); });
   for (const Candidate& c : candidates)
     out.matches[static_cast<std::size_t>(c.sighting)] = kRejected;
   for (const int p : jointlyCompatible(belief_, pairs, settings_.gateProbability))
@@ -159,17 +196,28 @@ std::vector<std::int32_t> Map::settle(int robot, const core::LandmarkScan& scan,
     else if (out[k] == kNew)
       start(robot, matched.rays[k], scan.sightings[k].id, time, out[k]);
   }
-  for (std::size_t s = 0; s < entries_.size(); ++s)
-  {
-    Entry& e = entries_[s];
-    if (e.sightings == 0 || isConfirmed(e) || time - e.lastSeen <= settings_.tentativeTime ||
-        belief_.landmark(static_cast<int>(s)) < 0)
-      continue;
-    belief_.removeLandmark(static_cast<int>(s));
-    if (settings_.association == Association::kKnown) slotOf_.erase(e.id);
-    e = {};
-  }
+  forgetUnconfirmed(time);
   return out;
+}
+
+void Map::forget(int slot)
+{
+  Entry& entry = entries_[static_cast<std::size_t>(slot)];
+  belief_.removeLandmark(slot);
+  if (settings_.association == Association::kKnown) slotOf_.erase(entry.id);
+  entry = {};
+}
+
+// Those that are not local wait until they are.
+void Map::forgetUnconfirmed(double time)
+{
+  for (int s = 0; s < static_cast<int>(entries_.size()); ++s)
+  {
+    const Entry& e = entries_[static_cast<std::size_t>(s)];
+    if (e.sightings > 0 && !isConfirmed(e) && time - e.lastSeen > settings_.tentativeTime &&
+        belief_.landmark(s) >= 0)
+      forget(s);
+  }
 }
 
 void Map::start(int robot, const Ray& ray, int id, double time, std::int32_t& slot)
@@ -180,7 +228,7 @@ void Map::start(int robot, const Ray& ray, int id, double time, std::int32_t& sl
   const auto s = static_cast<std::size_t>(slot);
   if (s >= entries_.size()) entries_.resize(s + 1);
   const bool known = settings_.association == Association::kKnown;
-  entries_[s] = {known ? id : nextNumber_++, 1, time};
+  entries_[s] = {known ? id : nextNumber_++, 1, time, 0};
   if (known) slotOf_[id] = slot;
 }
 }  // namespace slamot::filters::ekf

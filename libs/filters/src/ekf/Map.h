@@ -38,6 +38,7 @@ class Map : public core::LandmarkView
     int id = core::kNoId;
     int sightings = 0;  // 0: the slot is free
     double lastSeen = 0;
+    int rejections = 0;  // sightings with its identity in a row that were elsewhere
   };
   [[nodiscard]] bool isConfirmed(const Entry& e) const
   {
@@ -45,8 +46,11 @@ class Map : public core::LandmarkView
   }
   void matchKnown(const core::LandmarkScan& scan, std::vector<std::int32_t>& matches) const;
   void matchByPlace(int robot, double time, Scan& out);
-  void keepInReach(int robot, const core::LandmarkScan& scan);
+  void keepInReach(int robot, const core::LandmarkScan& scan, double time);
   [[nodiscard]] bool isInReach(int robot, const core::LandmarkScan& scan) const;
+  [[nodiscard]] double slack(int robot, const core::Sighting& s) const;
+  void forget(int slot);
+  void forgetUnconfirmed(double time);
   [[nodiscard]] double noise(const Entry& e, double time) const
   {
     return settings_.noiseAfter(time - e.lastSeen);
@@ -60,5 +64,6 @@ class Map : public core::LandmarkView
   int nextNumber_ = 0;
   Point2D centre_;  // of the local landmarks
   double reach_ = 0;
+  double largestVar_ = 0;  // of a landmark's place, when they were made local [m²]
 };
 }  // namespace slamot::filters::ekf

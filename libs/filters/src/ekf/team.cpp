@@ -14,6 +14,26 @@ namespace slamot::filters::ekf
 namespace
 {
 constexpr int kRobot = core::RobotAndTarget::kRobot;
+void checkEvidence(const core::Evidence& e, int size)
+{
+  const Eigen::Index m = e.H.rows();
+  if (e.H.cols() != size) throw std::domain_error("it is of other coordinates");
+  if (m < 1 || m > math::kMaxBlock || e.innovation.size() != m || e.cov.rows() != m ||
+      e.cov.cols() != m || e.independent.rows() != m || e.independent.cols() != m)
+    throw std::domain_error("its sizes do not agree");
+  if (!e.H.allFinite() || !e.innovation.allFinite() || !e.cov.allFinite())
+    throw std::domain_error("a value is not finite");
+}
+
+/// The paper fuses coordinates themselves: the place, if any, and the first ones of the target.
+void checkSelection(const Eigen::MatrixXd& H, Eigen::Index first)
+{
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(H.rows(), H.cols());
+  for (Eigen::Index i = 0; i < H.rows(); ++i)
+    if (const Eigen::Index j = i < first ? i : kRobot + i - first; j < H.cols()) expected(i, j) = 1;
+  if (H.rows() < first || H != expected)
+    throw std::domain_error("the paper's rule wants coordinates as they are");
+}
 }  // namespace
 
 template <class Motion>
@@ -62,7 +82,7 @@ core::Fusion EngineOf<Motion>::fuse(const core::Evidence& evidence,
       kRobot + (target ? static_cast<int>(Motion::kinematics(State{}).value.size()) : 0);
   try
   {
-    if (evidence.H.cols() != size) throw std::domain_error("it is of other coordinates");
+    checkEvidence(evidence, size);
     if (options.rule == core::FusionRule::kPaper) return fuseBlocks(evidence, options, target);
     const Belief::Rows H = rowsOf(evidence.H, target);
     const Eigen::MatrixXd W = belief_.product(H);
@@ -73,6 +93,7 @@ core::Fusion EngineOf<Motion>::fuse(const core::Evidence& evidence,
     if (!update.pays) return {};
     belief_.fuse(H, W, update);
     wrapAngles();
+    if (target) tracks_.hear(static_cast<std::size_t>(target - targets_.data()), time_);
     return {true, update.omega};
   }
   catch (const std::domain_error& e)
@@ -89,6 +110,7 @@ core::Fusion EngineOf<Motion>::fuseBlocks(const core::Evidence& evidence,
   const Eigen::Index rows = evidence.H.rows();
   const bool ofRobot = (evidence.H.leftCols<kRobot>().array() != 0).any();
   const Eigen::Index first = ofRobot ? 2 : 0, k = rows - first;
+  checkSelection(evidence.H, first);
   if (k > 0 && (!target || k > kSize || Motion::kAngle >= 0))
     throw std::domain_error("the paper's rule wants the target's own coordinates");
   const auto block = [&](int j, Eigen::Index row, Eigen::Index size)

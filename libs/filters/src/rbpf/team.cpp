@@ -41,7 +41,10 @@ std::optional<std::size_t> EngineOf<Motion>::trackWith(int id) const
   for (std::size_t t = 0; id != core::kNoId && t < tracks_.list().size(); ++t)
   {
     const Track& track = tracks_.list()[t];
-    if (track.confirmed && track.identified && track.id == id) return t;
+    if (!track.confirmed || !track.identified || track.id != id) continue;
+    for (const auto& p : particles_.m_particles)
+      if (!Motion::hasVelocity(p.d.targets[t])) return {};
+    return t;
   }
   return {};
 }

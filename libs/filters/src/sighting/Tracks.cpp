@@ -68,7 +68,7 @@ bool Tracks::isLost(std::size_t index, double time, double std) const
   const Track& track = tracks_[index];
   constexpr int kMostRejections = 3;  // an identity seen this often elsewhere is elsewhere
   if (track.rejections >= kMostRejections) return true;
-  const double unseen = time - track.lastSeen;
+  const double unseen = time - std::max(track.lastSeen, track.lastHeard);
   if (!track.confirmed) return unseen > rules_.tentativeTime;
   return unseen > rules_.lostTime || !(std <= rules_.lostStd);
 }

@@ -27,6 +27,7 @@ struct Track
   int hits = 0;
   int rejections = 0;  ///< sightings with its identity in a row that were out of every gate
   double lastSeen = 0;
+  double lastHeard = -1e300;  ///< when another robot last told of it
 };
 
 /// The targets that are followed: the bookkeeping that does not depend on a particle.
@@ -44,6 +45,8 @@ class Tracks
   void add(const core::Blob& blob, double time);
   /// A sighting of a track.
   void hit(std::size_t index, const core::Blob& blob, double time);
+  /// Another robot told of a track.
+  void hear(std::size_t index, double time) { tracks_[index].lastHeard = time; }
   /// A blob out of every gate: counts against the track of its identity.
   void reject(const core::Blob& blob);
   /// Whether a track whose place has this deviation [m] is lost by now.

@@ -37,9 +37,11 @@ class Receiver
     std::set<int> senders;          ///< robots that are heard
     int identity = core::kNoId;     ///< under which sensors know this robot; sightings of another
                                     ///< identity are left out
-    double candidateGate = 0.99;    ///< chance that a true sighting of this robot is kept
-    double targetGate = 0.999;      ///< chance that a true target is kept
-    double maxAge = 1;              ///< [s]: older messages are dropped
+    bool believeIdentities = true;  ///< false: sightings count as without identity
+    double mateSpeed = 3;         ///< [m/s]: by which other robots may be off where they last were
+    double candidateGate = 0.99;  ///< chance that a true sighting of this robot is kept
+    double targetGate = 0.999;    ///< chance that a true target is kept
+    double maxAge = 1;            ///< [s]: older messages are dropped
     double candidateMaxAge = 0.02;  ///< [s]: older sightings of a robot that moves are left out
     double futureTolerance = 0.02;  ///< [s]: of clocks; a message so little ahead is of now
     MessageLimits limits;

@@ -15,6 +15,7 @@ struct TeamOptions
   int target = 0;               ///< identity of the target that estimates are exchanged of
   std::string mateLabel;        ///< of blobs that may be team mates
   bool mateIdentities = false;  ///< whether the identities of such blobs are believed
+  double mateSpeed = 3;         ///< [m/s], of team mates, about
   std::string frame;
   double candidateGate = 0.99, targetGate = 0.999;
   double maxAge = 1, candidateMaxAge = 0.02;  ///< [s]

@@ -13,6 +13,9 @@ struct TeamRobot
   Member* member = nullptr;
   std::vector<core::Sink*> sinks;
   std::vector<FusionEvent> events;  ///< filled by the run
+  /// If set, gets every step of an instant before any filter does: where robots share a filter that
+  /// relates them, all must have moved before one looks.
+  std::function<void(const core::Step&)> move{};
 };
 
 /// Replays several logs on one clock: the robots that have a step at the earliest time take it in,

@@ -32,6 +32,7 @@ class DampedVelocityTarget
   [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
   [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
   [[nodiscard]] static Kinematics<4, 4> kinematics(const State& s);
+  [[nodiscard]] static bool hasVelocity(const State&) { return true; }
   /// Of (x, y, vx, vy), whosoever.
   [[nodiscard]] TargetTransition<4> kinematicTransition(const Eigen::Matrix<double, 4, 1>& x,
                                                         double dt) const;

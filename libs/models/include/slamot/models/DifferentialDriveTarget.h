@@ -50,6 +50,8 @@ class DifferentialDriveTarget
   [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
   [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
   [[nodiscard]] static Kinematics<4, 5> kinematics(const State& s);
+  /// Whether kinematics() means something: not while the target waits for its heading.
+  [[nodiscard]] static bool hasVelocity(const State& s) { return s.headed; }
   /// For somebody's (x, y, vx, vy), of which turns are not known: they count as noise.
   [[nodiscard]] TargetTransition<4> kinematicTransition(const Eigen::Matrix<double, 4, 1>& x,
                                                         double dt) const;

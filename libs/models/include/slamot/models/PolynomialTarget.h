@@ -37,6 +37,7 @@ class PolynomialTarget
   [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
   [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
   [[nodiscard]] static Kinematics<kSize, kSize> kinematics(const State& s);
+  [[nodiscard]] static bool hasVelocity(const State&) { return true; }
   /// Of the same coordinates, whosoever.
   [[nodiscard]] TargetTransition<kSize> kinematicTransition(const Eigen::Matrix<double, kSize, 1>&,
                                                             double dt) const

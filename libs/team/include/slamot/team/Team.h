@@ -45,7 +45,7 @@ class Team
   void centralize(core::Config& config, const std::vector<core::FilterContext>& contexts,
                   const std::vector<Log>& logs);
   void gather(core::Config& config, const std::vector<core::FilterContext>& contexts,
-              const std::vector<Log>& logs);
+              const std::vector<Log>& logs, const std::set<int>& numbers);
 
   fusion::TeamOptions options_;
   std::vector<std::string> methods_;
