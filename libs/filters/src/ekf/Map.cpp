@@ -211,6 +211,7 @@ void Map::forget(int slot)
 // Those that are not local wait until they are.
 void Map::forgetUnconfirmed(double time)
 {
+  if (settings_.confirmSightings <= 1) return;  // all are confirmed
   for (int s = 0; s < static_cast<int>(entries_.size()); ++s)
   {
     const Entry& e = entries_[static_cast<std::size_t>(s)];

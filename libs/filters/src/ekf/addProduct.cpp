@@ -15,18 +15,20 @@ constexpr Index kRows = 8, kColumns = 4;  // of a tile, whose sums stay in regis
 using Lanes = double __attribute__((vector_size(kRows * sizeof(double))));
 
 /// Panels of so many rows, each with its entries in the order of use; zeros beyond the last row.
-std::vector<double> pack(const ReadOnly& m, Index panel)
+void pack(const ReadOnly& m, Index panel, std::vector<double>& out)
 {
   const Index panels = (m.rows + panel - 1) / panel;
-  std::vector<double> out(static_cast<std::size_t>(panels * panel * m.columns), 0.0);
+  out.resize(static_cast<std::size_t>(panels * panel * m.columns));
   for (Index p = 0; p < panels; ++p)
   {
     double* to = out.data() + p * panel * m.columns;
     const Index rows = std::min(panel, m.rows - p * panel);
     for (Index k = 0; k < m.columns; ++k, to += panel)
+    {
       for (Index r = 0; r < rows; ++r) to[r] = m.data[(p * panel + r) * m.stepI + k * m.stepK];
+      std::fill(to + rows, to + panel, 0.0);
+    }
   }
-  return out;
 }
 
 struct Job
@@ -119,7 +121,9 @@ void run(const Way& way, double factor, const ReadOnly& A, const ReadOnly& B, do
          Index stride, bool lower)
 {
   if (A.columns != B.columns) throw std::invalid_argument("addProduct: sizes do not agree");
-  const auto a = pack(A, kRows), b = pack(B, kColumns);
+  thread_local std::vector<double> a, b;  // room that stays, since most products are small
+  pack(A, kRows, a);
+  pack(B, kColumns, b);
   way.run({factor, a.data(), b.data(), A.columns, A.rows, B.rows, C, stride, lower});
 }
 }  // namespace
