@@ -151,8 +151,21 @@ TEST(Compressed, MakesRoomForTargetsWhileSomeAreLocal)
   t.expectEqual();
 }
 
-// Hundreds of metres among landmarks, with targets, births, and many changes of what is local.
-TEST(Compressed, EqualsThePlainFormOverALongDrive)
+/// What another robot could have told, the same for filters that believe the same.
+static core::Evidence evidenceFor(const core::RobotAndTarget& own)
+{
+  core::Evidence out;
+  out.H = Eigen::MatrixXd::Zero(2, own.mean.size());
+  out.H.leftCols<2>().setIdentity();
+  out.innovation = Vector2(0.01, -0.02);
+  out.cov = 0.5 * own.cov.topLeftCorner<2, 2>() + 1e-4 * Matrix2::Identity();
+  out.independent = Matrix2::Zero();
+  return out;
+}
+
+/// Hundreds of metres among landmarks, with targets, births, many changes of what is local, and
+/// now and then a fusion.
+static void expectEqualDrives(const std::string& association)
 {
   core::Config scenario = core::Config::parse(
       "[world]\nwidth_m=120\nheight_m=60\nlandmarks=120\nsteps=900\ndt_s=0.2\nscan_every=1\n"
@@ -165,11 +178,12 @@ TEST(Compressed, EqualsThePlainFormOverALongDrive)
       "detection_probability=0.9\n[target_sensor]\nrange_max_m=15\nrange_std_m=0.2\n"
       "bearing_std_rad=0.01\n",
       "test");
-  const auto keys = [](const std::string& radius)
+  scenario.set("landmark_sensor", "identities", association == "known" ? "true" : "false");
+  const auto keys = [&](const std::string& radius)
   {
     return "target_velocity_std_mps=2\ntarget_acceleration_std_mps2=1\n"
-           "target_jerk_noise_mps3_per_sqrt_hz=0.3\nlocal_radius_m=" +
-           radius;
+           "target_jerk_noise_mps3_per_sqrt_hz=0.3\nlandmark_tentative_s=6\nassociation=" +
+           association + "\nlocal_radius_m=" + radius;
   };
   const sim::Scenario s = sim::Scenario::from(scenario);
   sim::World world(s, 1);
@@ -183,7 +197,15 @@ TEST(Compressed, EqualsThePlainFormOverALongDrive)
   {
     ++steps;
     std::vector<core::Estimate> estimates;
-    for (auto& f : filters) estimates.push_back(f->process(*step).estimate);
+    for (auto& f : filters)
+    {
+      f->process(*step);
+      auto& member = dynamic_cast<core::TeamFilter&>(*f);
+      core::FusionOptions options;
+      options.omega = 0.95;
+      if (steps % 60 == 0) member.fuse(evidenceFor(member.robotAndTarget(core::kNoId)), options);
+      estimates.push_back(f->estimate());
+    }
     tracked += estimates[0].targets.size();
     for (std::size_t k = 1; k < estimates.size(); ++k)
     {
@@ -211,5 +233,16 @@ TEST(Compressed, EqualsThePlainFormOverALongDrive)
                 1e-7 * l.position.cov.cwiseAbs().maxCoeff());
     }
   }
+}
+
+TEST(Compressed, EqualsThePlainFormOverALongDrive)
+{
+  expectEqualDrives("known");
+}
+
+TEST(Compressed, EqualsThePlainFormWithoutIdentities)
+{
+  expectEqualDrives("nn");
+  expectEqualDrives("jcbb");
 }
 }  // namespace slamot::filters::ekf
