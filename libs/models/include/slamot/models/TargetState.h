@@ -55,5 +55,6 @@ struct Kinematics
 
 // Every model of a target's motion has: State; start(), birth(); move(State&, dt), which moves the
 // mean and returns the transition; predict(State&, dt), move() with the covariance;
-// afterCorrection(); pose(), velocity(), kinematics(), kinematicTransition(), hasVelocity(), widen().
+// afterCorrection(); pose(), velocity(), kinematics(), kinematicTransition(), hasVelocity(),
+// widen().
 }  // namespace slamot::models
