@@ -22,7 +22,7 @@ done
 errors() { awk 'NR == FNR { x[$1] = $2; y[$1] = $3; next }
                 $1 in x { printf "%.1f %.6f\n", $1, sqrt(($2 - x[$1])^2 + ($3 - y[$1])^2) }' "$2" "$1"; }
 
-# Mean over the seeds, and half of its 95% interval.
+# Mean over the seeds, and half of its 95% interval; of the target, each seed's mean over both robots.
 for rule in $rules; do
   for what in robot0 robot1 target; do
     for seed in $(seq "$seeds"); do
@@ -31,10 +31,11 @@ for rule in $rules; do
                   errors "$out/$rule-$seed/world$seed.robot$r/target_0.tum" "$out/world$seed.robot$r.truth/target_0.tum"
                 done ;;
         *) errors "$out/$rule-$seed/world$seed.$what/robot.tum" "$out/world$seed.$what.truth/robot.tum" ;;
-      esac
+      esac | awk '{ n[$1]++; s[$1] += $2 } END { for (t in n) print t, s[t] / n[t] }'
     done | awk '{ n[$1]++; s[$1] += $2; q[$1] += $2 * $2 }
-                END { for (t in n) { m = s[t] / n[t]; v = n[t] > 1 ? (q[t] / n[t] - m * m) / (n[t] - 1) : 0
-                                     printf "%s %.6f %.6f\n", t, m, 1.96 * sqrt(v > 0 ? v : 0) } }' |
+                END { for (t in n) { m = s[t] / n[t]; f = n[t] - 1; v = f > 0 ? (q[t] / n[t] - m * m) / f : 0
+                                     student = f > 0 ? 1.96 + 2.37 / f + 2.82 / (f * f) : 0
+                                     printf "%s %.6f %.6f\n", t, m, student * sqrt(v > 0 ? v : 0) } }' |
       sort -n >"$out/$rule-$what.dat"
   done
 done
