@@ -2,6 +2,7 @@
 #include <slamot/core/Params.h>
 #include <slamot/eval/Alignment.h>
 #include <slamot/results/RecordFiles.h>
+#include <slamot/results/RunPlan.h>
 #include <slamot/results/Summary.h>
 #include <slamot/results/TextFile.h>
 #include <slamot/results/TruthFiles.h>
@@ -24,6 +25,7 @@ using core::ExitStatus;
 struct EvaluateCommand
 {
   std::string result, truth, align, output;
+  std::vector<double> leverArm;
   bool json = false;
   eval::EvaluationOptions options;
 };
@@ -65,14 +67,20 @@ void takeTargetForRobot(const std::string& file, eval::Truth& truth)
 }
 
 // As the run was evaluated, unless told otherwise.
-eval::Align alignOf(const EvaluateCommand& o)
+eval::EvaluationOptions optionsOf(const EvaluateCommand& o)
 {
-  if (!o.align.empty()) return *eval::alignNamed(o.align);
-  const fs::path config = fs::path(o.result) / "config.ini";
-  if (!fs::exists(config)) return eval::Align::kFirstPose;
-  core::Config ini = core::Config::load(config.string());
-  return *eval::alignNamed(
-      core::Params(ini, "run").choice("align", eval::alignNames(), "first-pose"));
+  eval::EvaluationOptions out = o.options;
+  out.align = eval::Align::kFirstPose;
+  if (const fs::path config = fs::path(o.result) / "config.ini"; fs::exists(config))
+  {
+    core::Config ini = core::Config::load(config.string());
+    out.align = *eval::alignNamed(
+        core::Params(ini, "run").choice("align", eval::alignNames(), "first-pose"));
+    out.leverArm = results::readLeverArm(ini);
+  }
+  if (!o.align.empty()) out.align = *eval::alignNamed(o.align);
+  if (!o.leverArm.empty()) out.leverArm = {o.leverArm[0], o.leverArm[1]};
+  return out;
 }
 
 void tell(const EvaluateCommand& o, const std::string& json, const std::string& table)
@@ -101,7 +109,7 @@ int evaluateTeam(EvaluateCommand o, const std::vector<std::string>& names)
     records.push_back(results::loadRecord(folder));
     truths.push_back(findTruth(folder, o.truth));
   }
-  o.options.align = alignOf(o);
+  o.options = optionsOf(o);
   std::vector<eval::RunWithTruth> runs;
   for (std::size_t r = 0; r < names.size(); ++r) runs.push_back({&records[r], &truths[r]});
   const auto evaluations = eval::evaluateTogether(runs, o.options);
@@ -128,7 +136,7 @@ int evaluate(EvaluateCommand o)
       isFolder ? results::loadRecord(o.result) : results::loadTumRecord(o.result);
   eval::Truth truth = findTruth(o.result, o.truth);
   if (!isFolder) takeTargetForRobot(o.result, truth);
-  o.options.align = alignOf(o);
+  o.options = optionsOf(o);
   const eval::Evaluation evaluation = eval::evaluate(record, truth, o.options);
   tell(o, results::evaluationJson(record, evaluation), tableOf(o.result, record, evaluation));
   return static_cast<int>(ExitStatus::kDone);
@@ -151,6 +159,13 @@ void addEvaluate(CLI::App& app, int& status)
       ->type_name("PREFIX");
   command->add_option("--align", o->align, "How to lay the map over the truth (default as the run)")
       ->check(CLI::IsMember(eval::alignNames()));
+  command
+      ->add_option("--lever-arm", o->leverArm,
+                   "The robot's point that the truth is of, as an antenna, in its frame [m] "
+                   "(default as the run, else 0,0)")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("X,Y");
   command->add_flag("--json", o->json, "Print JSON");
   command->add_option("-o,--output", o->output, "Write JSON to a file")->type_name("FILE");
   command

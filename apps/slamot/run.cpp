@@ -146,6 +146,7 @@ class Run
   {
     eval::EvaluationOptions options;
     options.align = plan_.align;
+    options.leverArm = plan_.leverArm;
     const eval::Evaluation evaluation = eval::evaluate(record, truth_, options);
     const results::RunInfo info{plan_.method, o_.dataset, plan_.seed, configText(o_, config_)};
     const results::RunView view{record, truth_, evaluation};

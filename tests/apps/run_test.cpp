@@ -290,6 +290,29 @@ TEST(SlamotEvaluate, TakesATrajectoryOfAnotherProgram)
               0, 1e-9);
 }
 
+TEST(SlamotEvaluate, TakesErrorsAtTheLeverArmOfTheRunOrOfTheCommand)
+{
+  const Workplace place;
+  place.write("other.tum", "0 0 0.5 0 0 0 0 1\n1 1 0.5 0 0 0 0 1\n2 2 0.5 0 0 0 0 1\n");
+  const auto meanError = [](const Outcome& o)
+  {
+    EXPECT_EQ(o.status, 0) << o.text;
+    return nlohmann::json::parse(o.text)["robot"]["all"]["position_mean_error_m"].get<double>();
+  };
+  const std::string evaluate = "evaluate other.tum --truth log.rawlog --align none --json ";
+  EXPECT_NEAR(meanError(place.slamot(evaluate + "--lever-arm -3,-0.5")), 3, 1e-9);
+  EXPECT_NEAR(meanError(place.slamot(evaluate + "--lever-arm=0,-0.5")), 0, 1e-9);
+  expectOneErrorLine(place.slamot(evaluate + "--lever-arm 1"), 1, "--lever-arm");
+  expectOneErrorLine(place.slamot(evaluate + "--lever-arm 1,x"), 1, "--lever-arm");
+
+  const std::string run = "run dr.ini log.rawlog -q -o out --set run.lever_arm_m=";
+  ASSERT_EQ(place.slamot(run + "1,0").status, 0);
+  EXPECT_NEAR(place.summary("out")["robot"]["position_rmse_m"].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(meanError(place.slamot("evaluate out --json")), 1, 1e-6);
+  EXPECT_NEAR(meanError(place.slamot("evaluate out --json --lever-arm 0,0")), 0, 1e-6);
+  expectOneErrorLine(place.slamot(run + "1"), 1, "lever_arm_m");
+}
+
 TEST(SlamotEvaluate, SaysWhatIsMissing)
 {
   const Workplace place;

@@ -48,6 +48,7 @@ TEST(Evaluate, SumsUpErrorsAsDefined)
   const Evaluation e = evaluate(run.record, run.truth, {});
   EXPECT_EQ(e.robot.all.count, 4);
   EXPECT_NEAR(*e.robot.all.positionMean, (0.3 + 0.4) / 4, 1e-12);
+  EXPECT_NEAR(*e.robot.all.positionMedian, 0.15, 1e-12);  // of 0, 0, 0.3, 0.4
   EXPECT_NEAR(*e.robot.all.positionRmse, std::sqrt((0.09 + 0.16) / 4), 1e-12);
   EXPECT_NEAR(*e.robot.all.headingRmse, std::sqrt(0.04 / 4), 1e-12);
   EXPECT_NEAR(*e.robot.all.neesMean, (9.0 + 16.0 + 4.0) / 4, 1e-9);
@@ -105,6 +106,44 @@ TEST(Evaluate, AlignmentUndoesAMovedMapCovariancesIncluded)
   const Evaluation movedRigid = evaluate(run.record, run.truth, with(Align::kRigid));
   EXPECT_NEAR(*movedRigid.robot.all.positionRmse, *rigid.robot.all.positionRmse, 1e-9);
   EXPECT_LE(*rigid.robot.all.positionRmse, *still.robot.all.positionRmse);
+}
+
+/// A run whose truth is the path of an antenna, 0.5 m ahead and 0.3 m to the right of the robot.
+PerfectRun runWithAntenna(const Point2D& antenna)
+{
+  PerfectRun run(30);
+  for (TimedPose& p : run.truth.robot.poses)
+    p = {p.time, math::compose(p.pose, {antenna.x, antenna.y, 0}), false};
+  return run;
+}
+
+TEST(Evaluate, TakesErrorsAtTheEndOfTheLeverArm)
+{
+  const Point2D antenna(0.5, -0.3);
+  PerfectRun run = runWithAntenna(antenna);
+  EvaluationOptions options = with(Align::kNone);
+  EXPECT_NEAR(*evaluate(run.record, run.truth, options).robot.all.positionRmse,
+              std::hypot(0.5, 0.3), 1e-12);
+  options.leverArm = antenna;
+  EXPECT_NEAR(*evaluate(run.record, run.truth, options).robot.all.positionRmse, 0, 1e-12);
+  options.align = Align::kRigid;
+  run.moveMap({3, -2, 1.1});
+  EXPECT_NEAR(*evaluate(run.record, run.truth, options).robot.all.positionRmse, 0, 1e-9);
+  options.leverArm = {};
+  EXPECT_GT(*evaluate(run.record, run.truth, options).robot.all.positionRmse, 0.01)
+      << "no alignment can undo an arm that turns with the robot";
+}
+
+TEST(Evaluate, ALeverArmTurnsDoubtOfHeadingIntoDoubtOfPlace)
+{
+  PerfectRun run = runWithAntenna({2, 0});
+  run.truth.robot.poses.resize(1);
+  run.truth.robot.poses[0].pose.y += 0.3;  // heading 0 there, deviations 0.1 m and 0.1 rad
+  EvaluationOptions options = with(Align::kNone);
+  options.leverArm = {2, 0};
+  const Evaluation e = evaluate(run.record, run.truth, options);
+  EXPECT_NEAR(*e.robot.all.neesPositionMean, 0.09 / (0.01 + 4 * 0.01), 1e-9);
+  EXPECT_NEAR(*e.robot.all.positionMean, 0.3, 1e-12);
 }
 
 TEST(Evaluate, LeavesSingularCovariancesOutOfNees)

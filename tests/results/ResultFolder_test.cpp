@@ -200,11 +200,11 @@ TEST(Summary, HasExactlyTheKeysOfTheInterface)
                                       "wall_s"}));
   EXPECT_EQ(keysOf(json["robot"]),
             (std::vector<std::string>{"heading_rmse_rad", "nees_mean", "position_mean_error_m",
-                                      "position_rmse_m"}));
+                                      "position_median_error_m", "position_rmse_m"}));
   EXPECT_EQ(
       keysOf(json["targets"][0]),
       (std::vector<std::string>{"heading_rmse_rad", "id", "nees_mean", "position_mean_error_m",
-                                "position_rmse_m", "tracked_fraction"}));
+                                "position_median_error_m", "position_rmse_m", "tracked_fraction"}));
   EXPECT_EQ(keysOf(json["landmarks"]),
             (std::vector<std::string>{"gospa_m", "mapped", "rmse_m", "true"}));
   EXPECT_EQ(keysOf(json["association"]),

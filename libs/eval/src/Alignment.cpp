@@ -39,6 +39,16 @@ std::optional<Pose2D> rigid(const std::vector<RunWithTruth>& runs, double maxTru
   if (from.empty()) return std::nullopt;
   return rigidAlignment(from, to);
 }
+
+std::vector<Evaluation> evaluateAtPoint(std::vector<RunWithTruth> runs, EvaluationOptions options)
+{
+  std::vector<Record> moved;
+  moved.reserve(runs.size());
+  for (RunWithTruth& run : runs)
+    run.record = &moved.emplace_back(ofPoint(*run.record, options.leverArm));
+  options.leverArm = {};
+  return evaluateTogether(runs, options);
+}
 }  // namespace
 
 std::vector<std::string> alignNames()
@@ -93,6 +103,7 @@ std::optional<Pose2D> alignment(const std::vector<RunWithTruth>& runs, Align ali
 std::vector<Evaluation> evaluateTogether(const std::vector<RunWithTruth>& runs,
                                          EvaluationOptions options)
 {
+  if (options.leverArm != Point2D()) return evaluateAtPoint(runs, options);
   const auto truthFromMap = alignment(runs, options.align, options.maxTruthGap);
   if (!truthFromMap) options.align = Align::kNone;
   std::vector<Evaluation> out;

@@ -36,6 +36,12 @@ void addMissed(Evaluation& evaluation)
 Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOptions& options,
                     const Pose2D& truthFromMap)
 {
+  if (options.leverArm != Point2D())
+  {
+    EvaluationOptions there = options;
+    there.leverArm = {};
+    return evaluate(ofPoint(record, options.leverArm), truth, there, truthFromMap);
+  }
   Evaluation out;
   out.align = options.align;
   out.truthFromMap = truthFromMap;
@@ -50,10 +56,6 @@ Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOp
 
 Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOptions& options)
 {
-  const auto truthFromMap = alignment({{&record, &truth}}, options.align, options.maxTruthGap);
-  if (truthFromMap) return evaluate(record, truth, options, *truthFromMap);
-  EvaluationOptions unaligned = options;
-  unaligned.align = Align::kNone;
-  return evaluate(record, truth, unaligned, Pose2D());
+  return evaluateTogether({{&record, &truth}}, options).front();
 }
 }  // namespace slamot::eval

@@ -74,13 +74,15 @@ ErrorSummary summarise(const std::vector<StepError>& steps,
 {
   const double bound = math::chiSquareQuantile(0.95, 2);
   ErrorSummary out;
+  std::vector<double> distances;
   Mean distance, squared, heading, nees3, nees2, inside;
   for (const StepError& s : steps)
   {
     if (!use(s)) continue;
     ++out.count;
     const double d2 = s.error.head<2>().squaredNorm();
-    distance.add(std::sqrt(d2));
+    distances.push_back(std::sqrt(d2));
+    distance.add(distances.back());
     squared.add(d2);
     if (s.headingKnown) heading.add(s.error[2] * s.error[2]);
     if (s.nees) nees3.add(*s.nees);
@@ -93,6 +95,7 @@ ErrorSummary summarise(const std::vector<StepError>& steps,
     inside.add(*s.neesPosition <= bound ? 1.0 : 0.0);
   }
   out.positionMean = distance.value();
+  if (!distances.empty()) out.positionMedian = math::quantile(std::move(distances), 0.5);
   out.positionRmse = squared.root();
   out.headingRmse = heading.root();
   out.neesMean = nees3.value();

@@ -42,6 +42,15 @@ SeedAndAlign readSeedAndAlign(core::Config& config, bool startsAreKnown)
   return out;
 }
 
+Point2D readLeverArm(core::Config& config)
+{
+  core::Params run(config, "run");
+  const std::vector<double> arm = run.numbers("lever_arm_m", "0, 0");
+  if (arm.size() != 2)
+    run.fail("lever_arm_m", "is not two numbers", "write the point of the robot as X, Y");
+  return {arm[0], arm[1]};
+}
+
 RunPlan planRun(core::Config& config, const core::Starts& ofLog)
 {
   RunPlan plan;
@@ -51,6 +60,7 @@ RunPlan planRun(core::Config& config, const core::Starts& ofLog)
   const SeedAndAlign run = readSeedAndAlign(config, plan.starts.robot.has_value());
   plan.seed = run.seed;
   plan.align = run.align;
+  plan.leverArm = readLeverArm(config);
   return plan;
 }
 }  // namespace slamot::results

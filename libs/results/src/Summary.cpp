@@ -25,6 +25,7 @@ Json orNull(const std::optional<T>& value)
 Json errorsJson(const eval::ErrorSummary& e)
 {
   return {{"position_mean_error_m", orNull(e.positionMean)},
+          {"position_median_error_m", orNull(e.positionMedian)},
           {"position_rmse_m", orNull(e.positionRmse)},
           {"heading_rmse_rad", orNull(e.headingRmse)},
           {"nees_mean", orNull(e.neesMean)}};

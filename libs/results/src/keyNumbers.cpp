@@ -87,8 +87,9 @@ void addParticleFacts(Table& table, const eval::Record& record)
 
 std::vector<std::string> errorHeader()
 {
-  return {"",         "steps",    "position, mean [m]", "RMSE [m]", "heading RMSE [deg]",
-          "NEES (3)", "NEES (2)", "in 95% ellipse [%]"};
+  return {"",           "steps",    "position, mean [m]",
+          "median [m]", "RMSE [m]", "heading RMSE [deg]",
+          "NEES (3)",   "NEES (2)", "in 95% ellipse [%]"};
 }
 
 std::vector<std::string> errorRow(const std::string& name, const eval::ErrorSummary& e)
@@ -96,6 +97,7 @@ std::vector<std::string> errorRow(const std::string& name, const eval::ErrorSumm
   return {name,
           std::to_string(e.count),
           orDash(e.positionMean, 4),
+          orDash(e.positionMedian, 4),
           orDash(e.positionRmse, 4),
           orDash(e.headingRmse, 2, math::radToDeg(1)),
           orDash(e.neesMean, 2),

@@ -35,8 +35,8 @@ std::string cell(const std::optional<double>& v, int decimals, std::size_t width
 
 std::string header()
 {
-  return left("") + "  steps  position error [m]  heading [rad]     NEES  in 95%\n" + left("") +
-         "            mean      rmse           rmse     of 3 ellipse\n";
+  return left("") + "  steps         position error [m]  heading [rad]     NEES  in 95%\n" +
+         left("") + "            mean    median      rmse           rmse     of 3 ellipse\n";
 }
 
 std::string errorLine(const std::string& name, const eval::ErrorSummary& e)
@@ -44,8 +44,8 @@ std::string errorLine(const std::string& name, const eval::ErrorSummary& e)
   std::optional<double> percent;
   if (e.coverage95) percent = 100 * *e.coverage95;
   return left(name) + right(std::to_string(e.count), 7) + cell(e.positionMean, 3, 9) +
-         cell(e.positionRmse, 3, 10) + cell(e.headingRmse, 4, 15) + cell(e.neesMean, 2, 9) +
-         (percent ? cell(percent, 1, 7) + "%" : right("-", 8)) + "\n";
+         cell(e.positionMedian, 3, 10) + cell(e.positionRmse, 3, 10) + cell(e.headingRmse, 4, 15) +
+         cell(e.neesMean, 2, 9) + (percent ? cell(percent, 1, 7) + "%" : right("-", 8)) + "\n";
 }
 
 std::string detailLines(const eval::TargetEvaluation& t)

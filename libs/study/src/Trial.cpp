@@ -4,6 +4,7 @@
 #include <slamot/core/FilterRegistry.h>
 #include <slamot/core/Odometry.h>
 #include <slamot/mrpt/RawlogSource.h>
+#include <slamot/results/RunPlan.h>
 #include <slamot/results/TruthFiles.h>
 #include <slamot/sim/World.h>
 
@@ -106,11 +107,12 @@ core::Starts startsOf(core::Config& config, const core::Starts& ofData)
 }
 
 // As `slamot run` accepts them; in a study, seed and alignment are the study's.
-void readRunSection(core::Config& config)
+void readRunSection(core::Config& config, eval::EvaluationOptions& evaluation)
 {
   core::Params run(config, "run");
   run.text("seed", "1");
   run.text("align", "auto");
+  evaluation.leverArm = results::readLeverArm(config);
 }
 }  // namespace
 
@@ -148,7 +150,7 @@ Trial openTrial(const StudySpec& spec, const Cell& cell, const Method& method, s
   core::Config config = configOf(method.file, spec, cell);
   const auto options = RawlogSource::Options::from(config);
   const bool isTeam = config.has("team");
-  readRunSection(config);
+  readRunSection(config, trial.evaluation);
   if (isTeam && !spec.simulated)
     throw core::Error(core::ExitStatus::kConfig, method.file.name + " [team]",
                       "a study of a team needs a scenario", "use slamot team for rawlogs");

@@ -29,8 +29,8 @@ eval::ErrorSummary meanOf(const std::vector<eval::ErrorSummary>& all)
   using E = eval::ErrorSummary;
   E out;
   for (const E& e : all) out.count += e.count;
-  for (const auto value : {&E::positionMean, &E::positionRmse, &E::headingRmse, &E::neesMean,
-                           &E::neesPositionMean, &E::coverage95})
+  for (const auto value : {&E::positionMean, &E::positionMedian, &E::positionRmse, &E::headingRmse,
+                           &E::neesMean, &E::neesPositionMean, &E::coverage95})
     out.*value = meanOf(all, value);
   return out;
 }

@@ -45,6 +45,7 @@ const eval::TargetEvaluation* targetOf(const RobotResult& robot, int id)
 Json errorsJson(const eval::ErrorSummary& e)
 {
   return {{"position_mean_error_m", orNull(e.positionMean)},
+          {"position_median_error_m", orNull(e.positionMedian)},
           {"position_rmse_m", orNull(e.positionRmse)},
           {"heading_rmse_rad", orNull(e.headingRmse)},
           {"nees_mean", orNull(e.neesMean)},

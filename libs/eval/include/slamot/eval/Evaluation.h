@@ -29,6 +29,7 @@ struct ErrorSummary
 {
   int count = 0;                           ///< steps with truth
   std::optional<double> positionMean;      ///< [m]
+  std::optional<double> positionMedian;    ///< [m]
   std::optional<double> positionRmse;      ///< [m]
   std::optional<double> headingRmse;       ///< [rad]
   std::optional<double> neesMean;          ///< 3 degrees of freedom
@@ -108,6 +109,9 @@ struct EvaluationOptions
   double gospaCutoff = 1.0;     ///< GOSPA's c [m]
   double targetCutoff = 2.0;    ///< a track whose median error is larger stands for no target [m]
   double maxTruthGap = 2.0;     ///< truth is interpolated over gaps up to this [s]
+  /// The point of the robot, in its own frame [m], whose path the truth is of, as of an antenna;
+  /// the robot's errors and the alignment are taken there.
+  Point2D leverArm{0, 0};
   std::vector<double> sinceSeenEdges = {0, 1, 3, 10, 30, 1e9};  ///< [s]
 };
 

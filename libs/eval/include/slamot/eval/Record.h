@@ -82,4 +82,8 @@ struct Record
   /// Whether landmarks carry the sensor's identities: all sightings with one were paired by it.
   [[nodiscard]] bool landmarksIdentified() const;
 };
+
+/// The same with the robot's poses, and their covariances, those of another point of it.
+/// \param point_robot [m], in the robot's frame.
+[[nodiscard]] Record ofPoint(Record record, const Point2D& point_robot);
 }  // namespace slamot::eval

@@ -16,6 +16,7 @@ struct RunPlan
   std::uint64_t seed = 1;
   core::Starts starts;
   eval::Align align = eval::Align::kNone;
+  Point2D leverArm{0, 0};  ///< see eval::EvaluationOptions
 };
 
 /// Keys `seed` and `align` of [run].
@@ -29,9 +30,12 @@ struct SeedAndAlign
 /// pose.  \throws core::Error (kConfig).
 [[nodiscard]] SeedAndAlign readSeedAndAlign(core::Config& config, bool startsAreKnown);
 
-/// Reads [run] (method, seed, align) and [start].  A config without [start] takes over the log's,
-/// so that the effective config repeats the run.  Unless [run] says otherwise, results are not
-/// aligned where the robot's start was given, else by the first pose.
-/// \throws core::Error (kConfig).
+/// Key `lever_arm_m` of [run], as `X, Y`; 0, 0 without it.  \throws core::Error (kConfig).
+[[nodiscard]] Point2D readLeverArm(core::Config& config);
+
+/// Reads [run] (method, seed, align, lever_arm_m) and [start].  A config without [start] takes over
+/// the log's, so that the effective config repeats the run.  Unless [run] says otherwise, results
+/// are not aligned where the robot's start was given, else by the first pose. \throws core::Error
+/// (kConfig).
 [[nodiscard]] RunPlan planRun(core::Config& config, const core::Starts& ofLog);
 }  // namespace slamot::results
