@@ -29,7 +29,7 @@ TEST(Scenario, Experiment1IsThatOfThePage)
   EXPECT_EQ(s.steps, 320);
   EXPECT_EQ(s.scanEvery, 8);
   EXPECT_EQ(s.dt, 0.025);
-  EXPECT_EQ(s.landmarks, 20);
+  EXPECT_EQ(s.landmarks.count, 20);
   EXPECT_EQ(s.robots.at(0).motion.vStd, 0.4);
   EXPECT_EQ(s.robots.at(0).motion.omegaStd, 0.0872);
   ASSERT_EQ(s.targets.count(1), 1u);
@@ -38,7 +38,7 @@ TEST(Scenario, Experiment1IsThatOfThePage)
   EXPECT_EQ(s.targets.at(1).start.std, (std::array<double, 3>{0.1, 0.1, 0.1}));
   EXPECT_EQ(s.landmarkSensor.fov.rangeMax, 5);
   EXPECT_EQ(s.landmarkSensor.fov.bearingMax, math::kPi);
-  EXPECT_EQ(s.targetSensor.bearingStd, 0.008);
+  EXPECT_EQ(s.targetSensor->bearingStd, 0.008);
 }
 
 TEST(Scenario, WhatIsWrongIsSaidWithItsKey)
@@ -74,6 +74,21 @@ TEST(Scenario, WhatIsWrongIsSaidWithItsKey)
   expect({"target.present_s=3"}, "[target] present_s: has a time without its partner");
   expect({"target.switch_min_s=4"}, "[target] switch_max_s: is below switch_min_s");
   expect({"robot.follow_target=2"}, "[robot] follow_target: there is no target 2");
+  expect({"world.landmark_placement=along_path", "world.landmark_path_max_m=2"},
+         "[world] landmark_placement: along_path, but no robot has a path of its own");
+  expect({"world.landmark_placement=along_path"}, "[world] landmark_path_max_m: missing");
+  expect({"world.landmark_path_max_m=2", "world.landmark_path_min_m=2"},
+         "[world] landmark_path_max_m: is not above landmark_path_min_m; raise it");
+  expect({"world.landmark_placement=along_path", "world.landmark_path_max_m=12",
+          "world.landmark_path_min_m=11", "robot.following=false", "robot.start=path"},
+         "[world] landmark_path_max_m: leaves no place for landmark 0; raise it");
+  expect({"world.landmarks=1000", "world.landmark_cluster_size=1000"},
+         "[world] landmark_spacing_min_m: leaves no place for landmark");
+  expect({"robot.drive=steering"}, "[robot] steer_std_deg: missing");
+  expect({"target.drive=steering", "target.steer_std_deg=1"},
+         "[target] drive: steering is for motion = waypoints and straight; set it to turn_rate");
+  expect({"robot.drive=steering", "robot.steer_std_deg=1", "robot.motion=straight"},
+         "[robot] drive: steering can't follow a target; set it to turn_rate");
   expect({"landmark_sensor.detection_probability=1.1"},
          "detection_probability: 1.1 is out of range");
   expect({"target_sensor.range_max_m=0.5", "target_sensor.range_min_m=1"},
@@ -142,7 +157,7 @@ TEST(Scenario, EveryShippedOneIsWellFormed)
     EXPECT_TRUE(world.next().has_value());
     ++seen;
   }
-  EXPECT_GE(seen, 5);
+  EXPECT_GE(seen, 9);
 }
 }  // namespace
 }  // namespace slamot::sim

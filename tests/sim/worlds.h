@@ -25,6 +25,16 @@ inline sim::Scenario scenario(const std::vector<std::string>& changes = {})
   return out;
 }
 
+/// A shipped scenario `sim.<name>.ini` with some keys changed.
+inline sim::Scenario shipped(const std::string& name, const std::vector<std::string>& changes = {})
+{
+  core::Config config = core::Config::load(SLAMOT_CONFIG_INI "/sim." + name + ".ini");
+  for (const std::string& change : changes) config.set(change);
+  const sim::Scenario out = sim::Scenario::from(config);
+  config.requireAllRead();
+  return out;
+}
+
 inline core::Config team300()
 {
   return core::Config::load(SLAMOT_CONFIG_INI "/sim.team-300m.ini");

@@ -66,9 +66,11 @@ Command Bodies::robotCommand(std::size_t robot)
 void Bodies::drive(Body& body, const Command& c, const Motion& m, std::uint64_t key) const
 {
   auto random = stream(seed_, Purpose::kMotion, static_cast<std::uint64_t>(step_), key);
-  const double v = c.v + m.vStd * random.normal();
-  const double omega = c.omega + m.omegaStd * random.normal();
-  body.pose = math::compose(body.pose, math::turnThenMove(v, omega, scenario_.dt, 0, 0).mean);
+  Command executed = c;
+  executed.v += m.vStd * random.normal();
+  executed.turn +=
+      (m.drive == Motion::Drive::kSteering ? m.steerStd : m.omegaStd) * random.normal();
+  body.pose = math::compose(body.pose, increment(m, executed, scenario_.dt).mean);
 }
 
 void Bodies::moveTarget(Body& body, const Motion& m, std::uint64_t key) const
@@ -88,8 +90,7 @@ std::vector<Gaussian<Pose2D>> Bodies::move()
     const Command command = robotCommand(i);
     const Motion& m = scenario_.robots[i].motion;
     drive(robots_[i], command, m, robotKey(static_cast<int>(i)));
-    odometry.push_back(
-        math::turnThenMove(command.v, command.omega, scenario_.dt, m.vStd, m.omegaStd));
+    odometry.push_back(increment(m, command, scenario_.dt));
   }
   for (auto& [id, body] : targets_)
     moveTarget(body, scenario_.targets.at(id).motion, targetKey(id));

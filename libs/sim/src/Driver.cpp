@@ -29,7 +29,7 @@ Command Driver::next(const Pose2D& pose, double elapsed)
     case Motion::Kind::kCircle:
       return {motion_.speed, (motion_.clockwise ? -1 : 1) * motion_.speed / motion_.radius};
     case Motion::Kind::kWaypoints:
-      return toWaypoint(pose);
+      return toWaypoint(pose, elapsed);
     case Motion::Kind::kStraight:
       return {motion_.speed, 0};
     case Motion::Kind::kManoeuvre:
@@ -41,7 +41,15 @@ Command Driver::next(const Pose2D& pose, double elapsed)
   return {motion_.speed, motion_.turnRate};
 }
 
-Command Driver::toWaypoint(const Pose2D& pose)
+double Driver::turnWheel(double to, double elapsed)
+{
+  const double most = motion_.steerRateMax * (elapsed - wheelTime_);
+  wheelTime_ = elapsed;
+  wheel_ += std::clamp(math::wrapToPi(to - wheel_), -most, most);
+  return wheel_ = std::clamp(wheel_, -motion_.steerMax, motion_.steerMax);
+}
+
+Command Driver::toWaypoint(const Pose2D& pose, double elapsed)
 {
   const auto& points = motion_.waypoints;
   if (waypoint_ < points.size() &&
@@ -52,6 +60,8 @@ Command Driver::toWaypoint(const Pose2D& pose)
   }
   if (waypoint_ >= points.size()) return {};
   const double bearing = models::RangeBearing::predict(pose, points[waypoint_])[1];
+  if (motion_.drive == Motion::Drive::kSteering)
+    return {motion_.speed, turnWheel(bearing, elapsed)};
   // Slower in sharp turns: at full speed it could circle a waypoint for ever.
   return {motion_.speed * std::max(0.0, std::cos(bearing)), steer(motion_, bearing)};
 }

@@ -1,16 +1,12 @@
 #pragma once
 
+#include "Command.h"
+
 #include <slamot/math/random.h>
 #include <slamot/sim/Scenario.h>
 
 namespace slamot::sim
 {
-/// Velocities that a body is told to drive at over the next step.
-struct Command
-{
-  double v = 0, omega = 0;  ///< [m/s, rad/s]
-};
-
 /// Drives one body by its own motion.
 class Driver
 {
@@ -22,7 +18,8 @@ class Driver
   [[nodiscard]] Command next(const Pose2D& pose, double elapsed);
 
  private:
-  [[nodiscard]] Command toWaypoint(const Pose2D& pose);
+  [[nodiscard]] Command toWaypoint(const Pose2D& pose, double elapsed);
+  [[nodiscard]] double turnWheel(double to, double elapsed);
   [[nodiscard]] Command manoeuvre(const Pose2D& pose, double elapsed);
 
   Motion motion_;
@@ -30,6 +27,7 @@ class Driver
   math::RandomStream turns_;
   std::size_t waypoint_ = 0;
   double turn_ = 1, nextSwitch_ = 0;
+  double wheel_ = 0, wheelTime_ = 0;  // the wheel's angle as told last, and when
 };
 
 /// Drives a robot after a point beside a target: the nearer the slower, stopping at the distance to

@@ -1,5 +1,8 @@
 #include <slamot/sim/Motion.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace slamot::sim
 {
 namespace
@@ -73,13 +76,27 @@ void readAcceleration(core::Params& p, Motion& m)
     p.fail("speed_band_mps", "lets it stand still or turn back", "set it below speed_mps");
 }
 
+// Read whether used or not, so that --set can change from one drive to the other.
+void readDrive(core::Params& p, Motion& m)
+{
+  const bool steers = p.choice("drive", {"turn_rate", "steering"}, "turn_rate") == "steering";
+  m.drive = steers ? Motion::Drive::kSteering : Motion::Drive::kTurnRate;
+  m.wheelBase = p.positive("wheel_base_m", m.wheelBase);
+  m.steerMax = p.inRange("steer_max_deg", 0.1, 80, math::degToRad(30));
+  m.steerRateMax = p.positive("steer_rate_max_deg_per_s", math::degToRad(20));
+  m.steerStd = p.nonNegative("steer_std_deg", steers ? std::nullopt : std::optional(0.0));
+  if (steers && m.kind != Motion::Kind::kWaypoints && m.kind != Motion::Kind::kStraight)
+    p.fail("drive", "steering is for motion = waypoints and straight", "set it to turn_rate");
+}
+
 void readNoise(core::Params& p, Motion& m)
 {
   // A point has no wheels: its jerk is all that is random.
   const bool isPoint = m.kind == Motion::Kind::kAccelerated;
   const auto otherwise = isPoint ? std::optional(0.0) : std::nullopt;
   m.vStd = p.nonNegative("v_std_mps", otherwise);
-  m.omegaStd = p.nonNegative("omega_std_radps", otherwise);
+  const bool turns = m.drive == Motion::Drive::kTurnRate;
+  m.omegaStd = p.nonNegative("omega_std_radps", turns ? otherwise : std::optional(0.0));
   if (isPoint && (m.vStd > 0 || m.omegaStd > 0))
     p.fail(m.vStd > 0 ? "v_std_mps" : "omega_std_radps", "is not for motion = accelerated",
            "set it to 0, and jerk_noise_mps3_per_sqrt_hz");
@@ -99,7 +116,28 @@ Motion Motion::from(core::Params& p, const Area& area)
   readManoeuvre(p, m);
   readStart(p, m);
   readAcceleration(p, m);
+  readDrive(p, m);
   readNoise(p, m);
   return m;
+}
+
+bool Motion::hasPath() const
+{
+  return kind == Kind::kCircle || kind == Kind::kWaypoints;
+}
+
+double Motion::distanceToPath(const Point2D& p) const
+{
+  if (kind == Kind::kCircle) return std::abs((p - centre).norm() - radius);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = loop ? 0 : 1; i < waypoints.size(); ++i)
+  {
+    const Point2D& a = waypoints[i == 0 ? waypoints.size() - 1 : i - 1];
+    const Point2D along = waypoints[i] - a, to = p - a;
+    const double length2 = along.sqrNorm();
+    const double t = length2 > 0 ? (to.x * along.x + to.y * along.y) / length2 : 0;
+    nearest = std::min(nearest, (to - along * std::clamp(t, 0.0, 1.0)).norm());
+  }
+  return nearest;
 }
 }  // namespace slamot::sim

@@ -12,7 +12,6 @@ namespace slamot::sim
 namespace
 {
 constexpr int kMostSteps = 10'000'000;
-constexpr int kMostLandmarks = 100'000;
 
 // The id that a section's name gives a target; none for other sections.
 std::optional<int> targetId(const std::string& section)
@@ -68,19 +67,6 @@ std::map<int, TargetSetup> readTargets(core::Config& config, const Area& area, d
   return out;
 }
 
-void readLandmarks(core::Params& p, Scenario& s)
-{
-  s.landmarks = p.integer("landmarks", 0, kMostLandmarks, 0);
-  s.landmarkSpacing = p.nonNegative("landmark_spacing_min_m", 0.0);
-  if (!p.has("landmark_positions_m")) return;
-  if (s.landmarks > 0)
-    p.fail("landmark_positions_m", "given beside landmarks", "keep one of the two");
-  const auto numbers = p.numbers("landmark_positions_m");
-  if (numbers.size() % 2 != 0)
-    p.fail("landmark_positions_m", "has an x without y", "write x1, y1, x2, y2, ...");
-  for (std::size_t i = 0; i < numbers.size(); i += 2)
-    s.landmarkPositions.emplace_back(numbers[i], numbers[i + 1]);
-}
 }  // namespace
 
 StartKnowledge readStartKnowledge(core::Params& p, const Motion& motion)
@@ -115,12 +101,12 @@ Scenario Scenario::from(core::Config& config)
   s.dt = world.inRange("dt_s", 1e-4, 3600);
   s.steps = world.integer("steps", 1, kMostSteps);
   s.scanEvery = world.integer("scan_every", 1, kMostSteps, 1);
-  readLandmarks(world, s);
   s.targets = readTargets(config, s.area, s.dt);
   s.robots = readRobots(config, s.area, s.targets);
+  s.landmarks = readLandmarks(world, s.robots);
   s.landmarkSensor = readLandmarkSensor(config);
-  s.targetSensor = readTargetSensor(config);
   s.mateSensor = readMateSensor(config);
+  s.targetSensor = readTargetSensor(config, !s.targets.empty() || s.mateSensor);
   return s;
 }
 }  // namespace slamot::sim

@@ -93,7 +93,7 @@ void World::Impl::scanLandmarks(core::Step& out)
 
 core::FieldOfView World::Impl::blobView() const
 {
-  const core::FieldOfView& own = scenario.targetSensor.fov;
+  const core::FieldOfView& own = scenario.targetSensor->fov;
   return scenario.mateSensor ? hullOf(own, scenario.mateSensor->fov) : own;
 }
 
@@ -108,7 +108,7 @@ void World::Impl::addBlob(core::Step& out, const SensorSetup& sensor, const Seen
 
 void World::Impl::scanTargets(core::Step& out) const
 {
-  const SensorSetup& sensor = scenario.targetSensor;
+  const SensorSetup& sensor = *scenario.targetSensor;
   std::map<int, Point2D> places;
   for (const auto& [id, pose] : bodies.presentTargets()) places[id] = {pose.x, pose.y};
   for (const Seen& seen : scan(sensor, places, Purpose::kTargetSensing, Purpose::kTargetClutter))
@@ -131,6 +131,7 @@ void World::Impl::scanMates(core::Step& out) const
 
 void World::Impl::scanBlobs(core::Step& out) const
 {
+  if (!scenario.targetSensor) return;
   out.blobs.emplace().fov = blobView();
   scanTargets(out);
   if (scenario.mateSensor) scanMates(out);

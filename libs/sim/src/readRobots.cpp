@@ -43,6 +43,8 @@ void readFollowing(core::Params& p, RobotSetup& r, const std::map<int, TargetSet
   r.followSpeedRatio = p.positive("follow_speed_ratio", 1.2);
   if (r.following && !targets.count(r.followed))
     p.fail("follow_target", "there is no target " + std::to_string(r.followed), "add its section");
+  if (r.following && r.motion.drive == Motion::Drive::kSteering)
+    p.fail("drive", "steering can't follow a target", "set it to turn_rate");
   if (!r.following && r.followSide != 0)
     p.fail("follow_side_m", "is given, but the robot follows nothing", "set following = true");
 }

@@ -12,8 +12,12 @@ StartKnowledge readStartKnowledge(core::Params& p, const Motion& motion);
 std::vector<RobotSetup> readRobots(core::Config& config, const Area& area,
                                    const std::map<int, TargetSetup>& targets);
 
+/// Of [world].
+LandmarkSetup readLandmarks(core::Params& p, const std::vector<RobotSetup>& robots);
+
 SensorSetup readLandmarkSensor(core::Config& config);
-SensorSetup readTargetSensor(core::Config& config);
+/// Absent without [target_sensor] if nothing needs it.
+std::optional<SensorSetup> readTargetSensor(core::Config& config, bool isNeeded);
 /// Absent without [mate_sensor].
 std::optional<SensorSetup> readMateSensor(core::Config& config);
 

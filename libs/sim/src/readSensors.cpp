@@ -32,8 +32,9 @@ SensorSetup readLandmarkSensor(core::Config& config)
   return readSensor(p);
 }
 
-SensorSetup readTargetSensor(core::Config& config)
+std::optional<SensorSetup> readTargetSensor(core::Config& config, bool isNeeded)
 {
+  if (!isNeeded && !config.has("target_sensor")) return std::nullopt;
   core::Params p(config, "target_sensor");
   SensorSetup s = readSensor(p);
   s.bearingOnly = p.flag("bearing_only", false);

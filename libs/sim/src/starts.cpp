@@ -55,34 +55,7 @@ Pose2D placeFacing(const Pose2D& target, const Scenario& s, const RobotSetup& ro
   }
   noPlace(s, "[" + robot.section + "] start_distance_m", "the robot inside the world", "lower it");
 }
-
-bool clearOf(const std::map<int, Point2D>& others, const Point2D& p, double spacing)
-{
-  return std::none_of(others.begin(), others.end(),
-                      [&](const auto& other)
-                      { return std::hypot(other.second.x - p.x, other.second.y - p.y) < spacing; });
-}
 }  // namespace
-
-std::map<int, Point2D> placeLandmarks(const Scenario& s, std::uint64_t seed)
-{
-  std::map<int, Point2D> out;
-  for (const Point2D& p : s.landmarkPositions) out.emplace(static_cast<int>(out.size()), p);
-  for (int id = 0; id < s.landmarks; ++id)
-  {
-    auto random = stream(seed, Purpose::kLandmark, 0, static_cast<std::uint64_t>(id));
-    Point2D p = drawPoint(s.area, 0, random);
-    for (int i = 0; s.landmarkSpacing > 0 && !clearOf(out, p, s.landmarkSpacing); ++i)
-    {
-      if (i == kTries)
-        noPlace(s, "[world] landmark_spacing_min_m", "landmark " + std::to_string(id),
-                "lower it, or landmarks");
-      p = drawPoint(s.area, 0, random);
-    }
-    out.emplace(id, p);
-  }
-  return out;
-}
 
 std::map<int, Pose2D> placeTargets(const Scenario& s, std::uint64_t seed)
 {

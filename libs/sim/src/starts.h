@@ -8,8 +8,8 @@
 namespace slamot::sim
 {
 /// Where everything is at the start; equal seeds place landmark n alike whatever their number.
-/// \throws core::Error (kConfig) if the landmarks' spacing, or the robot's distance from its
-/// target, leaves no place in the area.
+/// \throws core::Error (kConfig) if the landmarks' keys, or the robot's distance from its
+/// target, leave no place in the area.
 [[nodiscard]] std::map<int, Point2D> placeLandmarks(const Scenario& scenario, std::uint64_t seed);
 [[nodiscard]] std::map<int, Pose2D> placeTargets(const Scenario& scenario, std::uint64_t seed);
 [[nodiscard]] Pose2D placeRobot(const Scenario& scenario, int robot,

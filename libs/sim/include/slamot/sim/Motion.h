@@ -33,6 +33,13 @@ struct Motion
     kCommand,     ///< constant speed and turn rate from wherever it starts
     kAccelerated  ///< a point (targets only): nearly constant acceleration, never turning back
   };
+  /// What a body's second control does to it.
+  enum class Drive
+  {
+    kTurnRate,  ///< turns by omega dt, then moves by v dt: eq. 32 of Xin, Jia, Gou 2014, corrected
+    kSteering  ///< a bicycle's front wheel: moves by v dt where the wheel points, turns by v dt sin
+               ///< G / L
+  };
   enum class StartAt
   {
     kPath,       ///< on the circle, or at the first waypoint facing the next
@@ -60,11 +67,21 @@ struct Motion
   double speedBand = 1;  ///< its speed stays this near to `speed` [m/s]
   double cone = 0.7;     ///< its direction stays this near to that of the start [rad]
   StartAt startAt = StartAt::kPath;
-  Pose2D start;                   ///< if given
-  double startDistance = 4;       ///< from the target, if near it [m]
+  Pose2D start;              ///< if given
+  double startDistance = 4;  ///< from the target, if near it [m]
+  Drive drive = Drive::kTurnRate;
+  double wheelBase = 4;           ///< L, of steering [m]
+  double steerMax = 0.5;          ///< the wheel's angle G stays within +-this [rad]
+  double steerRateMax = 0.35;     ///< and changes no faster than this [rad/s]
   double vStd = 0, omegaStd = 0;  ///< noise of the executed motion, anew each step [m/s, rad/s]
+  double steerStd = 0;            ///< of the wheel's angle, in place of omega's [rad]
 
   /// Reads the keys from p.  \throws core::Error (kConfig).
   static Motion from(core::Params& p, const Area& area);
+
+  /// Whether it has a path in the plane: a circle, or waypoints.
+  [[nodiscard]] bool hasPath() const;
+  /// How far a point is from that path [m]; of waypoints, from the lines that join them.
+  [[nodiscard]] double distanceToPath(const Point2D& p) const;
 };
 }  // namespace slamot::sim

@@ -56,23 +56,35 @@ struct SensorSetup
   std::string label = "robot";                ///< of the mate sensor's true blobs
 };
 
+/// Landmarks: where they are, or how they are placed at random.
+struct LandmarkSetup
+{
+  std::vector<Point2D> positions;  ///< given ones, instead of
+  int count = 0;                   ///< placed ones
+  bool alongPath = false;  ///< within a band on either side of the robots' paths, else anywhere
+  double pathMin = 0, pathMax = 0;  ///< the band's distances from the path [m]
+  int clusterSize = 1;              ///< so many stand together
+  double clusterSpacing = 1;        ///< from a member of a cluster to the nearest other one [m]
+  double spacing = 0;  ///< smallest distance between two of them, or of different clusters [m]
+};
+
 /// A world to simulate.  Sections [world]; [robot], or [robot_0], [robot_1], ... for a team;
-/// [target] or [target_<id>]; [landmark_sensor] [target_sensor]; and [mate_sensor] if robots see
-/// one another.  config-ini/sim.experiment1.ini comments every key.
+/// [target] or [target_<id>]; [landmark_sensor]; [target_sensor], which a world without targets and
+/// mates may leave out; and [mate_sensor] if robots see one another.
+/// config-ini/sim.experiment1.ini comments every key.
 struct Scenario
 {
   std::string name;  ///< of its file, for messages
   Area area;
   double startTime = 0, dt = 0.025;  ///< [s]
   int steps = 320;
-  int scanEvery = 8;                         ///< steps from one scan to the next
-  int landmarks = 0;                         ///< placed at random
-  double landmarkSpacing = 0;                ///< smallest distance between two of them [m]
-  std::vector<Point2D> landmarkPositions;    ///< given ones, instead
-  std::vector<RobotSetup> robots;            ///< at least one
-  std::map<int, TargetSetup> targets;        ///< [target] is number 1
-  SensorSetup landmarkSensor, targetSensor;  ///< of every robot
-  std::optional<SensorSetup> mateSensor;     ///< for the other robots; absent: not seen
+  int scanEvery = 8;  ///< steps from one scan to the next
+  LandmarkSetup landmarks;
+  std::vector<RobotSetup> robots;           ///< at least one
+  std::map<int, TargetSetup> targets;       ///< [target] is number 1
+  SensorSetup landmarkSensor;               ///< of every robot, as the others
+  std::optional<SensorSetup> targetSensor;  ///< absent: nothing looks for blobs
+  std::optional<SensorSetup> mateSensor;    ///< for the other robots; absent: not seen
 
   /// Reads the sections; config.requireAllRead() then finds what nobody knows.
   /// \throws core::Error (kConfig).
