@@ -3,7 +3,8 @@
 #include <slamot/core/Error.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "importOptions.h"
 
 namespace slamot::apps
 {
@@ -11,18 +12,6 @@ namespace
 {
 using core::Error;
 using core::ExitStatus;
-
-/// An option in degrees for a value kept in radians.
-CLI::Option* addDegrees(CLI::App& command, const std::string& name, double& radians,
-                        const std::string& what)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", math::radToDeg(radians));
-  return command
-      .add_option_function<double>(
-          name, [&radians](double degrees) { radians = math::degToRad(degrees); }, what)
-      ->default_str(text);
-}
 
 void addSensorOptions(CLI::App& command, MrclamImport& o)
 {
@@ -35,10 +24,7 @@ void addSensorOptions(CLI::App& command, MrclamImport& o)
       addDegrees(command, "--std-heading", wheels.heading, "Odometry's heading [deg/sqrt(s)]"),
       command.add_option("--std-heading-turning", wheels.headingTurning,
                          "The same while turning [rad/sqrt(rad turned)]"),
-      command.add_option("--std-range", m.rangeStd, "Ranges [m]"),
-      command.add_option("--std-range-scale", m.rangeScaleStd,
-                         "Ranges, part of the range, added in squares"),
-      addDegrees(command, "--std-bearing", m.bearingStd, "Bearings [deg]")};
+      command.add_option("--std-range", m.rangeStd, "Ranges [m]")};
   for (CLI::Option* option : options)
     option->type_name("STD")->check(CLI::Range(0.0, 1e3))->capture_default_str();
 }

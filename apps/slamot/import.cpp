@@ -9,6 +9,8 @@
 #include "Command.h"
 #include "MrclamImport.h"
 #include "TeamLogs.h"
+#include "VictoriaParkImport.h"
+#include "importOptions.h"
 #include "rawlogOutput.h"
 
 namespace slamot::apps
@@ -25,11 +27,14 @@ struct ImportOptions
   bool quiet = false;
   double startTime = 0;
   MrclamImport mrclam;
+  VictoriaParkImport park;
+  SensorImport sensor;
 };
 
 std::unique_ptr<importers::Import> open(const ImportOptions& o)
 {
   if (o.kind == "csv") return importers::openCsvFolder(o.source, o.startTime);
+  if (o.kind == "victoria-park") return importers::openVictoriaPark(o.source, o.park.options);
   return importers::openMrclam(o.source, o.mrclam.of(o.mrclam.options.robot));
 }
 
@@ -125,11 +130,48 @@ void refuseOptions(const CLI::App& group, const std::string& kind)
                   option->get_name() + " is an option of " + kind, "remove it");
 }
 
-void checkKind(const CLI::App& csv, const CLI::App& mrclam, const ImportOptions& o)
+/// The groups of options that only some kinds have.
+struct Groups
 {
-  if (o.kind != "csv") refuseOptions(csv, "csv");
-  if (o.kind != "mrclam") refuseOptions(mrclam, "mrclam");
-  if (o.kind == "mrclam") o.mrclam.check(mrclam);
+  CLI::App *csv, *mrclam, *park, *sensor;
+};
+
+Groups addGroups(CLI::App& command, ImportOptions& o)
+{
+  Groups out{command.add_option_group("csv", "Options of csv"),
+             command.add_option_group("mrclam", "Options of mrclam"),
+             command.add_option_group("victoria-park", "Options of victoria-park"),
+             command.add_option_group("sensor", "Options of mrclam and victoria-park")};
+  out.csv
+      ->add_option("--start-time", o.startTime,
+                   "When the first step starts [s], for times that count from an epoch")
+      ->check(CLI::Range(0.0, 1e10))
+      ->capture_default_str()
+      ->type_name("T");
+  o.mrclam.addTo(*out.mrclam);
+  o.park.addTo(*out.park);
+  o.sensor.addTo(*out.sensor);
+  return out;
+}
+
+void checkKind(const Groups& groups, const ImportOptions& o)
+{
+  if (o.kind != "csv") refuseOptions(*groups.csv, "csv");
+  if (o.kind != "mrclam") refuseOptions(*groups.mrclam, "mrclam");
+  if (o.kind != "victoria-park") refuseOptions(*groups.park, "victoria-park");
+  if (o.kind == "csv") refuseOptions(*groups.sensor, "mrclam and victoria-park");
+  if (o.kind == "mrclam") o.mrclam.check(*groups.mrclam);
+}
+
+/// What was asked of the sensor, to the kind that it is for.
+void shareSensor(ImportOptions& o)
+{
+  importers::MrclamOptions& mrclam = o.mrclam.options;
+  importers::VictoriaParkOptions& park = o.park.options;
+  mrclam.rangeScaleStd = o.sensor.rangeScaleStd.value_or(mrclam.rangeScaleStd);
+  mrclam.bearingStd = o.sensor.bearingStd.value_or(mrclam.bearingStd);
+  park.rangeScaleStd = o.sensor.rangeScaleStd.value_or(park.rangeScaleStd);
+  park.bearingStd = o.sensor.bearingStd.value_or(park.bearingStd);
 }
 }  // namespace
 
@@ -141,11 +183,13 @@ void addImport(CLI::App& app, int& status)
                          "Write a rawlog and its ground truth from data of another format.\n"
                          "Example: slamot import csv my-drive/ -o my-drive.rawlog\n"
                          "         slamot import mrclam dataset6/ --robot 1 -o robot1.rawlog\n"
-                         "         slamot import mrclam dataset6/ --team --target 5 -o all.rawlog");
+                         "         slamot import mrclam dataset6/ --team --target 5 -o all.rawlog\n"
+                         "         slamot import victoria-park park/ -o park.rawlog");
   command
-      ->add_option("kind", options->kind, "csv: a folder of CSV files; mrclam: a dataset's folder")
+      ->add_option("kind", options->kind,
+                   "csv: a folder of CSV files; mrclam, victoria-park: the dataset's folder")
       ->required()
-      ->check(CLI::IsMember({"csv", "mrclam"}))
+      ->check(CLI::IsMember({"csv", "mrclam", "victoria-park"}))
       ->type_name("KIND");
   command->add_option("source", options->source, "Where the data is")
       ->required()
@@ -156,18 +200,12 @@ void addImport(CLI::App& app, int& status)
       ->required()
       ->type_name("X.rawlog");
   command->add_flag("-q,--quiet", options->quiet, "Errors only");
-  CLI::App* csv = command->add_option_group("csv", "Options of csv");
-  csv->add_option("--start-time", options->startTime,
-                  "When the first step starts [s], for times that count from an epoch")
-      ->check(CLI::Range(0.0, 1e10))
-      ->capture_default_str()
-      ->type_name("T");
-  CLI::App* mrclam = command->add_option_group("mrclam", "Options of mrclam");
-  options->mrclam.addTo(*mrclam);
+  const Groups groups = addGroups(*command, *options);
   command->callback(
-      [options, csv, mrclam, &status]
+      [options, groups, &status]
       {
-        checkKind(*csv, *mrclam, *options);
+        checkKind(groups, *options);
+        shareSensor(*options);
         status = import(*options);
       });
 }

@@ -1,9 +1,11 @@
 #include <slamot/importers/CsvFolder.h>
 #include <slamot/importers/Mrclam.h>
+#include <slamot/importers/VictoriaPark.h>
 #include <slamot/mrpt/RawlogSource.h>
 #include <slamot/results/TruthFiles.h>
 
 #include "../importers/MrclamData.h"
+#include "../importers/VictoriaParkData.h"
 #include "../results/TemporaryFolder.h"
 #include "expectNear.h"
 #include "program.h"
@@ -157,6 +159,52 @@ TEST(ImportCommand, AMrclamTeamIsWholeOrNotThere)
   EXPECT_TRUE(std::filesystem::is_empty(folder.file("out"))) << outcome.text;
 }
 
+TEST(ImportCommand, VictoriaParkReadsBackAsItWas)
+{
+  const TemporaryFolder folder;
+  test::writePark(folder);
+  for (const char* name : {"inputs.txt", "trees.txt", "laser_cm.txt", "gps_first_600s.txt"})
+    test::packGz(folder, name);
+  const auto outcome = test::slamot(
+      "import victoria-park . -o a.rawlog --lasers --steering-offset 1 --steering-scale 1.5 "
+      "--laser-yaw -2 --laser-delay 0.1 --max-range 25 --std-speed 0.1 --std-steering 2 "
+      "--std-slip 3 --std-trunk 0.2 --std-range-scale 0.01 --std-bearing 1",
+      folder.file(""));
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_EQ(outcome.text,
+            "a.rawlog: 4 steps, 2 sightings in 3 scans, 0 blobs in 0 scans, 3 laser scans, 5 "
+            "dropped (3 at range <= 0 or out of the field of view, 2 outside odometry's time), "
+            "2.000 s; truth: a.truth\n");
+  importers::VictoriaParkOptions o;
+  o.lasers = true;
+  o.steeringOffset = math::degToRad(1);
+  o.steeringScale = 1.5;
+  o.laserYaw = math::degToRad(-2);
+  o.laserDelay = 0.1;
+  o.maxRange = 25;
+  o.noise = {0.1, math::degToRad(2), math::degToRad(3), 1};
+  o.trunkStd = 0.2;
+  o.rangeScaleStd = 0.01;
+  o.bearingStd = math::degToRad(1);
+  EXPECT_EQ(expectSame(*importers::openVictoriaPark(folder.file(""), o), folder), 4);
+  for (const auto& pose : results::loadTruth(folder.file("a.truth")).robot.poses)
+    EXPECT_FALSE(pose.headingKnown);
+}
+
+TEST(ImportCommand, VictoriaParkCutShortLeavesNothing)
+{
+  const TemporaryFolder folder;
+  test::writePark(folder);
+  test::packGz(folder, "inputs.txt");
+  const std::string whole = folder.read("inputs.txt.gz");
+  folder.write("inputs.txt.gz", whole.substr(0, whole.size() / 2));
+  const auto outcome = test::slamot("import victoria-park . -o out/a.rawlog", folder.file(""));
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.text,
+            "slamot: error: ./inputs.txt.gz: the compressed file ends early; copy it again\n");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.file("out")));
+}
+
 TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
 {
   const TemporaryFolder folder;
@@ -180,11 +228,19 @@ TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
   expect("csv nowhere -o a.rawlog", 2,
          "nowhere: is not a folder; give a folder with an odometry.csv");
   expect("xml drive -o a.rawlog", 1,
-         "command line: kind: xml not in {csv,mrclam}; see slamot --help");
+         "command line: kind: xml not in {csv,mrclam,victoria-park}; see slamot --help");
   expect("csv drive --robot 1 -o a.rawlog", 1,
          "command line: --robot is an option of mrclam; remove it");
   expect("mrclam drive --start-time 3 -o a.rawlog", 1,
          "command line: --start-time is an option of csv; remove it");
+  expect("csv drive --std-bearing 1 -o a.rawlog", 1,
+         "command line: --std-bearing is an option of mrclam and victoria-park; remove it");
+  expect("mrclam drive --robot 1 --laser-yaw 1 -o a.rawlog", 1,
+         "command line: --laser-yaw is an option of victoria-park; remove it");
+  expect("victoria-park drive --robot 1 -o a.rawlog", 1,
+         "command line: --robot is an option of mrclam; remove it");
+  expect("victoria-park drive -o a.rawlog", 2,
+         "drive/inputs.txt: neither this nor its .gz is there; give the folder of Victoria Park");
   expect("mrclam drive -o a.rawlog", 1,
          "command line: mrclam needs a robot; add --robot N, 1 to 5");
   const std::string team = "mrclam drive -o a.rawlog --team";
