@@ -16,7 +16,7 @@ constexpr double kOwnBody = 1;      // [m]; the 12 beams to the right hit the ca
 
 std::string required(const std::string& folder, const std::string& name)
 {
-  const std::string path = plainOrGz(folder + "/" + name);
+  std::string path = plainOrGz(folder + "/" + name);
   if (path.empty())
     throw core::Error(ExitStatus::kUnreadable, folder + "/" + name,
                       "neither this nor its .gz is there", "give the folder of Victoria Park");
