@@ -73,6 +73,58 @@ TEST(Gospa, EqualsBruteForceOverAllPairings)
       }
 }
 
+// Points in a few heaps far apart, some of which share a side of the grid: groups must not lose
+// pairs, nor make ones.
+TEST(Gospa, EqualsBruteForceWherePointsLieInGroups)
+{
+  math::RandomStream random{4};
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    std::vector<Point2D> x, y;
+    for (auto* set : {&x, &y})
+      for (int i = random.poisson(3); i > 0 && set->size() < 6; --i)
+      {
+        const double heap = std::floor(random.uniform(-2, 2));
+        set->emplace_back(3 * heap + random.uniform(-1, 1), random.uniform(-1, 1));
+      }
+    for (const double c : {0.2, 1.0, 2.5})
+    {
+      const Gospa g = gospa(x, y, c);
+      EXPECT_NEAR(g.total, bruteForceGospa(x, y, c), 1e-12) << trial << " c " << c;
+      EXPECT_NEAR(g.ospa, bruteForceOspa(x, y, c), 1e-12) << trial << " c " << c;
+      EXPECT_EQ(g.estimated, x.size());
+      EXPECT_EQ(g.truly, y.size());
+      for (const auto& [i, j] : g.pairs) EXPECT_LT((x[i] - y[j]).norm(), c);
+    }
+  }
+}
+
+TEST(Gospa, OfManyPointsIsThatOfItsParts)
+{
+  math::RandomStream random{5};
+  std::vector<Point2D> x, y;
+  double squares = 0;
+  // 20 000 pairs 10 m apart, each 0.5 m or 3 m long: the long ones are no pairs.
+  for (int i = 0; i < 20'000; ++i)
+  {
+    y.emplace_back(10.0 * (i % 200) - 1000, 10.0 * (i / 200));  // NOLINT: whole rows
+    const double a = random.uniform(0, math::kTwoPi), d = i % 4 == 0 ? 3 : 0.5;
+    x.emplace_back(y.back().x + d * std::cos(a), y.back().y + d * std::sin(a));
+    squares += i % 4 == 0 ? 2 * 2 * 2 / 2.0 : 0.25;
+  }
+  const Gospa g = gospa(x, y, 2);
+  EXPECT_EQ(g.pairs.size(), 15'000u);
+  EXPECT_NEAR(g.total * g.total, squares, 1e-6);
+  EXPECT_NEAR(g.missed, 5000 * 2.0, 1e-9);
+  EXPECT_NEAR(g.ospa * g.ospa, (15'000 * 0.25 + 5000 * 4) / 20'000, 1e-9);
+}
+
+TEST(Gospa, RefusesWhatIsNotFinite)
+{
+  EXPECT_THROW((void)gospa({{std::nan(""), 0}}, {{1, 0}}, 1), std::domain_error);
+  EXPECT_THROW((void)gospa({{0, 0}}, {{0, 1e300}}, 1), std::domain_error);
+}
+
 TEST(Gospa, PairsNothingAtTheCutoff)
 {
   EXPECT_TRUE(gospa({{0, 0}}, {{1, 0}}, 1.0).pairs.empty());
@@ -87,13 +139,13 @@ TEST(Ospa, EqualsBruteForceOverAllPermutations)
       for (const double c : {0.3, 1.0, 10.0})
       {
         const auto x = randomPoints(random, m), y = randomPoints(random, n);
-        EXPECT_NEAR(ospa(x, y, c), bruteForceOspa(x, y, c), 1e-12);
+        EXPECT_NEAR(gospa(x, y, c).ospa, bruteForceOspa(x, y, c), 1e-12);
       }
 }
 
 TEST(Ospa, OfOneEmptySetIsTheCutoff)
 {
-  EXPECT_DOUBLE_EQ(ospa({}, {{1, 2}}, 0.7), 0.7);
-  EXPECT_DOUBLE_EQ(ospa({}, {}, 0.7), 0.0);
+  EXPECT_DOUBLE_EQ(gospa({}, {{1, 2}}, 0.7).ospa, 0.7);
+  EXPECT_DOUBLE_EQ(gospa({}, {}, 0.7).ospa, 0.0);
 }
 }  // namespace slamot::eval

@@ -56,6 +56,35 @@ TEST(Assign, EqualsBruteForceForEveryShapeUpToSeven)
       }
 }
 
+// Of a solution to be the best, potentials must exist: no pair of rows, and no row alone, gains by
+// a change.  Among 60 rows pairs are enough to catch a wrong step of the search, ties included.
+TEST(Assign, NoSwapImprovesLargeOnes)
+{
+  RandomStream random{2};
+  for (const bool ties : {false, true})
+    for (const int columns : {60, 75})
+    {
+      Eigen::MatrixXd cost(60, columns);
+      for (double& c : cost.reshaped())
+        c = ties ? std::floor(random.uniform(0, 12)) : random.uniform(0, 12);
+      const std::vector<int> columnOf = assign(cost);
+      const std::set<int> used(columnOf.begin(), columnOf.end());
+      EXPECT_EQ(used.size(), 60u);
+      for (int i = 0; i < 60; ++i)
+      {
+        const int a = columnOf[static_cast<std::size_t>(i)];
+        for (int j = 0; j < columns; ++j)
+          EXPECT_TRUE(used.count(j) > 0 || cost(i, a) <= cost(i, j));
+        for (int k = 0; k < i; ++k)
+        {
+          const int b = columnOf[static_cast<std::size_t>(k)];
+          EXPECT_LE(cost(i, a) + cost(k, b), cost(i, b) + cost(k, a) + 1e-12);
+        }
+      }
+      EXPECT_DOUBLE_EQ(costOf(cost, columnOf), costOf(cost.transpose(), assign(cost.transpose())));
+    }
+}
+
 TEST(Assign, LeavesAllRowsAloneWithoutColumns)
 {
   EXPECT_EQ(assign(Eigen::MatrixXd(3, 0)), std::vector<int>({-1, -1, -1}));

@@ -4,53 +4,50 @@
 #include <algorithm>
 #include <cmath>
 
+#include "groups.h"
+
 namespace slamot::eval
 {
 namespace
 {
-Eigen::MatrixXd cutSquaredDistances(const std::vector<Point2D>& a, const std::vector<Point2D>& b,
-                                    double c)
+/// Of one group: adds its pairs and their squared distances.
+void pairGroup(const std::vector<Point2D>& estimates, const std::vector<Point2D>& truths,
+               const Group& group, double c2, Gospa& out)
 {
-  Eigen::MatrixXd cost(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t j = 0; j < b.size(); ++j)
+  // A pair at the cut-off costs c², as much as leaving both alone: so pairs may be forced.
+  Eigen::MatrixXd cost(group.first.size(), group.second.size());
+  for (std::size_t i = 0; i < group.first.size(); ++i)
+    for (std::size_t j = 0; j < group.second.size(); ++j)
       cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          std::min((a[i] - b[j]).sqrNorm(), c * c);
-  return cost;
+          std::min((estimates[group.first[i]] - truths[group.second[j]]).sqrNorm(), c2);
+  const std::vector<int> truthOf = math::assign(cost);
+  for (std::size_t i = 0; i < truthOf.size(); ++i)
+  {
+    if (truthOf[i] < 0) continue;
+    const double d2 = cost(static_cast<Eigen::Index>(i), truthOf[i]);
+    if (d2 >= c2) continue;
+    out.localisation += d2;
+    out.pairs.emplace_back(group.first[i], group.second[static_cast<std::size_t>(truthOf[i])]);
+  }
 }
 }  // namespace
 
 Gospa gospa(const std::vector<Point2D>& estimates, const std::vector<Point2D>& truths, double c)
 {
   Gospa out;
-  // A pair at the cut-off costs c², as much as leaving both alone: so pairs may be forced.
-  const Eigen::MatrixXd cost = cutSquaredDistances(estimates, truths, c);
-  const std::vector<int> truthOf = math::assign(cost);
-  for (std::size_t i = 0; i < truthOf.size(); ++i)
-  {
-    if (truthOf[i] < 0) continue;
-    const double d2 = cost(static_cast<Eigen::Index>(i), truthOf[i]);
-    if (d2 >= c * c) continue;
-    out.localisation += d2;
-    out.pairs.emplace_back(i, static_cast<std::size_t>(truthOf[i]));
-  }
+  out.estimated = estimates.size();
+  out.truly = truths.size();
+  for (const Group& group : groupsWithin(c, estimates, truths))
+    pairGroup(estimates, truths, group, c * c, out);
+  std::sort(out.pairs.begin(), out.pairs.end());
+  const auto paired = static_cast<double>(out.pairs.size());
   const double alone = c * c / 2;
-  out.missed = alone * static_cast<double>(truths.size() - out.pairs.size());
-  out.falseOnes = alone * static_cast<double>(estimates.size() - out.pairs.size());
+  out.missed = alone * (static_cast<double>(truths.size()) - paired);
+  out.falseOnes = alone * (static_cast<double>(estimates.size()) - paired);
   out.total = std::sqrt(out.localisation + out.missed + out.falseOnes);
+  // Both metrics want the least sum of d² - c² over the pairs.
+  const auto larger = static_cast<double>(std::max(estimates.size(), truths.size()));
+  if (larger > 0) out.ospa = std::sqrt((out.localisation + c * c * (larger - paired)) / larger);
   return out;
-}
-
-double ospa(const std::vector<Point2D>& estimates, const std::vector<Point2D>& truths, double c)
-{
-  const std::size_t larger = std::max(estimates.size(), truths.size());
-  const std::size_t smaller = std::min(estimates.size(), truths.size());
-  if (larger == 0) return 0;
-  const Eigen::MatrixXd cost = cutSquaredDistances(estimates, truths, c);
-  const std::vector<int> truthOf = math::assign(cost);
-  double sum = c * c * static_cast<double>(larger - smaller);
-  for (std::size_t i = 0; i < truthOf.size(); ++i)
-    if (truthOf[i] >= 0) sum += cost(static_cast<Eigen::Index>(i), truthOf[i]);
-  return std::sqrt(sum / static_cast<double>(larger));
 }
 }  // namespace slamot::eval

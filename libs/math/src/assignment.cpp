@@ -8,107 +8,158 @@ namespace slamot::math
 namespace
 {
 constexpr int kNone = -1;
+constexpr int kMostBids = 8;  // in a row; more of them cost more than the searches they save
 
-// Rows are added one by one, each along the cheapest path of reassignments; the potentials u, v
-// keep all reduced costs cost(i, j) - u[i] - v[j] at or above zero.
-class AugmentingPaths
+// The columns' potentials v keep each assigned row at the least of its reduced costs
+// cost(i, j) - v[j]; a column that no row has yet has v = 0.  No more rows than columns.
+class ShortestPaths
 {
  public:
-  explicit AugmentingPaths(const Eigen::Ref<const Eigen::MatrixXd>& cost)
-      : cost_(cost), u_(rows(), 0.0), v_(columns(), 0.0), rowOf_(columns(), kNone)
+  ShortestPaths(std::vector<double> cost, int rows, int columns)
+      : cost_(std::move(cost)),
+        columns_(columns),
+        v_(size(columns), 0.0),
+        rowOf_(size(columns), kNone),
+        columnOf_(size(rows), kNone),
+        distance_(size(columns)),
+        from_(size(columns))
   {
-    for (std::size_t row = 0; row < rows(); ++row) addRow(static_cast<int>(row));
+    for (const int row : bid(rows)) augment(row);
   }
 
-  [[nodiscard]] std::vector<int> columnOfRow() const
+  [[nodiscard]] const std::vector<int>& columnOfRow() const { return columnOf_; }
+
+ private:
+  static std::size_t size(int n) { return static_cast<std::size_t>(n); }
+  [[nodiscard]] const double* costs(int row) const
   {
-    std::vector<int> out(rows(), kNone);
-    for (std::size_t j = 0; j < columns(); ++j)
-      if (rowOf_[j] != kNone) out[static_cast<std::size_t>(rowOf_[j])] = static_cast<int>(j);
+    return cost_.data() + size(row) * size(columns_);
+  }
+
+  struct TwoBest
+  {
+    int column = kNone;
+    double cost = std::numeric_limits<double>::infinity(), secondCost = cost;
+  };
+  [[nodiscard]] TwoBest twoBest(int row) const
+  {
+    TwoBest out;
+    const double* c = costs(row);
+    for (int j = 0; j < columns_; ++j)
+    {
+      const double reduced = c[j] - v_[size(j)];
+      if (reduced >= out.secondCost) continue;
+      const bool isBest = reduced < out.cost;
+      out.secondCost = isBest ? out.cost : reduced;
+      if (isBest) out.cost = reduced, out.column = j;
+    }
     return out;
   }
 
- private:
-  struct Search
+  /// Augmenting row reduction: each row takes its best column, whose potential falls until the
+  /// second best is as good.  A row that lost its column goes on at once while potentials fall.
+  /// \return the rows left without a column.
+  std::vector<int> bid(int rows)
   {
-    std::vector<double> distance;
-    std::vector<int> from;  // column before, on the path to this one
-    std::vector<bool> done;
-  };
+    std::vector<int> left;
+    for (int next = 0; next < rows; ++next)
+    {
+      int row = next;
+      for (int bids = 0; row != kNone && bids < kMostBids; ++bids)
+      {
+        const TwoBest best = twoBest(row);
+        const int loser = rowOf_[size(best.column)];
+        const bool falls = columns_ > 1 && best.secondCost > best.cost;
+        if (loser != kNone && !falls) break;
+        if (falls) v_[size(best.column)] -= best.secondCost - best.cost;
+        rowOf_[size(best.column)] = row;
+        columnOf_[size(row)] = best.column;
+        if (loser != kNone) columnOf_[size(loser)] = kNone;
+        row = loser;
+      }
+      if (row != kNone) left.push_back(row);
+    }
+    return left;
+  }
 
-  [[nodiscard]] std::size_t rows() const { return static_cast<std::size_t>(cost_.rows()); }
-  [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>(cost_.cols()); }
-
-  void addRow(int row)
+  /// Gives a row a column, along the cheapest path of reassignments.
+  void augment(int row)
   {
-    Search s{std::vector<double>(columns(), std::numeric_limits<double>::infinity()),
-             std::vector<int>(columns(), kNone), std::vector<bool>(columns(), false)};
+    open_.clear();
+    for (int j = 0; j < columns_; ++j) open_.push_back(j);
+    std::fill(distance_.begin(), distance_.end(), std::numeric_limits<double>::infinity());
+    done_.clear();
+    int i = row, column = kNone;
     double length = 0;
-    int column = kNone;
-    for (int i = row; i != kNone; i = rowOf_[static_cast<std::size_t>(column)])
+    while (i != kNone)
     {
-      relax(s, i, column, length);
-      column = nearest(s);
-      length = s.distance[static_cast<std::size_t>(column)];
-      s.done[static_cast<std::size_t>(column)] = true;
+      const std::size_t nearest = relax(i, column, length);
+      column = open_[nearest];
+      length = distance_[size(column)];
+      open_[nearest] = open_.back();
+      open_.pop_back();
+      i = rowOf_[size(column)];
+      if (i != kNone) done_.push_back(column);
     }
-    updatePotentials(s, row, length);
-    for (int j = column; j != kNone; j = s.from[static_cast<std::size_t>(j)])
+    for (const int j : done_) v_[size(j)] += distance_[size(j)] - length;
+    while (column != kNone)
     {
-      const int before = s.from[static_cast<std::size_t>(j)];
-      rowOf_[static_cast<std::size_t>(j)] =
-          before == kNone ? row : rowOf_[static_cast<std::size_t>(before)];
+      const int before = from_[size(column)];
+      const int taker = before == kNone ? row : rowOf_[size(before)];
+      rowOf_[size(column)] = taker;
+      columnOf_[size(taker)] = column;
+      column = before;
     }
   }
 
-  void relax(Search& s, int i, int column, double length) const
+  /// Goes on from row i, which `column` led to.  \return the place in open_ of the nearest column.
+  std::size_t relax(int i, int column, double length)
   {
-    for (std::size_t j = 0; j < columns(); ++j)
+    const double* c = costs(i);
+    const double base = column == kNone ? 0 : length - (c[column] - v_[size(column)]);
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < open_.size(); ++k)
     {
-      if (s.done[j]) continue;
-      const double d =
-          length + cost_(i, static_cast<Eigen::Index>(j)) - u_[static_cast<std::size_t>(i)] - v_[j];
-      if (d >= s.distance[j]) continue;
-      s.distance[j] = d;
-      s.from[j] = column;
+      const auto j = size(open_[k]);
+      const double d = base + c[j] - v_[j];
+      if (d < distance_[j])
+      {
+        distance_[j] = d;
+        from_[j] = column;
+      }
+      if (distance_[j] < least) least = distance_[j], nearest = k;
     }
+    return nearest;
   }
 
-  [[nodiscard]] int nearest(const Search& s) const
-  {
-    std::size_t best = columns();
-    for (std::size_t j = 0; j < columns(); ++j)
-      if (!s.done[j] && (best == columns() || s.distance[j] < s.distance[best])) best = j;
-    return static_cast<int>(best);
-  }
-
-  void updatePotentials(const Search& s, int row, double length)
-  {
-    u_[static_cast<std::size_t>(row)] += length;
-    for (std::size_t j = 0; j < columns(); ++j)
-    {
-      if (!s.done[j]) continue;
-      const double slack = length - s.distance[j];
-      v_[j] -= slack;
-      if (rowOf_[j] != kNone) u_[static_cast<std::size_t>(rowOf_[j])] += slack;
-    }
-  }
-
-  const Eigen::Ref<const Eigen::MatrixXd>& cost_;
-  std::vector<double> u_, v_;
-  std::vector<int> rowOf_;
+  std::vector<double> cost_;  // row by row
+  int columns_;
+  std::vector<double> v_;
+  std::vector<int> rowOf_, columnOf_;
+  // Of one search: the columns not yet reached for good, and those on the way.
+  std::vector<double> distance_;
+  std::vector<int> from_, open_, done_;
 };
+
+std::vector<double> rowByRow(const Eigen::Ref<const Eigen::MatrixXd>& cost)
+{
+  std::vector<double> out(static_cast<std::size_t>(cost.size()));
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<RowMajor>(out.data(), cost.rows(), cost.cols()) = cost;
+  return out;
+}
 }  // namespace
 
 std::vector<int> assign(const Eigen::Ref<const Eigen::MatrixXd>& cost)
 {
   if (cost.size() == 0) return std::vector<int>(static_cast<std::size_t>(cost.rows()), kNone);
   if (!cost.allFinite()) throw std::domain_error("assignment needs finite costs");
-  if (cost.rows() <= cost.cols()) return AugmentingPaths(cost).columnOfRow();
+  const int rows = static_cast<int>(cost.rows()), columns = static_cast<int>(cost.cols());
+  if (rows <= columns) return ShortestPaths(rowByRow(cost), rows, columns).columnOfRow();
 
-  const Eigen::MatrixXd transposed = cost.transpose();
-  const std::vector<int> rowOfColumn = AugmentingPaths(transposed).columnOfRow();
-  std::vector<int> out(static_cast<std::size_t>(cost.rows()), kNone);
+  const auto rowOfColumn = ShortestPaths(rowByRow(cost.transpose()), columns, rows).columnOfRow();
+  std::vector<int> out(static_cast<std::size_t>(rows), kNone);
   for (std::size_t j = 0; j < rowOfColumn.size(); ++j)
     out[static_cast<std::size_t>(rowOfColumn[j])] = static_cast<int>(j);
   return out;
