@@ -173,7 +173,9 @@ void addEvaluate(CLI::App& app, int& status)
                    "Farther from any true one a landmark is false [m]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--gospa-cutoff", o->options.gospaCutoff, "GOSPA's c [m]")
+  command
+      ->add_option("--gospa-cutoff", o->options.gospaCutoff,
+                   "GOSPA's and OSPA's c [m], of landmarks and targets")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->callback([o, &status] { status = evaluate(*o); });

@@ -191,10 +191,10 @@ TEST(Record, SaysWhatIsNoResultFolder)
 TEST(Summary, HasExactlyTheKeysOfTheInterface)
 {
   const auto json = summaryOf(smallRecord(), {});
-  EXPECT_EQ(keysOf(json),
-            (std::vector<std::string>{"association", "complete", "dataset", "landmarks", "method",
-                                      "mrpt_version", "observations", "particles", "robot", "seed",
-                                      "slamot_version", "steps", "targets", "timing"}));
+  EXPECT_EQ(keysOf(json), (std::vector<std::string>{
+                              "association", "complete", "dataset", "landmarks", "method",
+                              "mrpt_version", "observations", "particles", "rigid", "robot", "seed",
+                              "slamot_version", "steps", "target_set", "targets", "timing"}));
   EXPECT_EQ(keysOf(json["timing"]),
             (std::vector<std::string>{"cpu_s", "peak_rss_mb", "step_median_us", "step_p99_us",
                                       "wall_s"}));
@@ -206,9 +206,11 @@ TEST(Summary, HasExactlyTheKeysOfTheInterface)
       (std::vector<std::string>{"heading_rmse_rad", "id", "nees_mean", "position_mean_error_m",
                                 "position_median_error_m", "position_rmse_m", "tracked_fraction"}));
   EXPECT_EQ(keysOf(json["landmarks"]),
-            (std::vector<std::string>{"gospa_m", "mapped", "rmse_m", "true"}));
+            (std::vector<std::string>{"gospa_m", "gospa_parts_m2", "mapped", "ospa_m", "rmse_m",
+                                      "seen", "true"}));
   EXPECT_EQ(keysOf(json["association"]),
-            (std::vector<std::string>{"correct", "new", "rejected", "wrong"}));
+            (std::vector<std::string>{"correct", "new", "paired_of_clutter", "rejected",
+                                      "right_of_paired", "right_of_sightings", "wrong"}));
   EXPECT_EQ(keysOf(json["particles"]),
             (std::vector<std::string>{"count", "ess_median", "ess_min", "resamplings"}));
 }
@@ -219,6 +221,9 @@ TEST(Summary, IsNullWhereThereIsNoTruth)
   EXPECT_TRUE(json["robot"]["position_rmse_m"].is_null());
   EXPECT_TRUE(json["targets"][0]["tracked_fraction"].is_null());
   EXPECT_TRUE(json["landmarks"]["gospa_m"].is_null());
+  EXPECT_TRUE(json["landmarks"]["ospa_m"].is_null());
+  EXPECT_TRUE(json["rigid"].is_null());
+  EXPECT_TRUE(json["target_set"].is_null());
   EXPECT_EQ(json["landmarks"]["mapped"], 1);
   EXPECT_EQ(json["particles"]["ess_min"], 4.5);
   EXPECT_EQ(json["particles"]["resamplings"], 1);
@@ -235,6 +240,11 @@ TEST(Summary, HasTheErrorsOfTheEvaluation)
   EXPECT_NEAR(json["robot"]["position_mean_error_m"].get<double>(), 0.25, 1e-12);
   EXPECT_EQ(json["landmarks"]["true"], 1);
   EXPECT_NEAR(json["landmarks"]["rmse_m"].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(json["landmarks"]["gospa_m"].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(json["landmarks"]["gospa_parts_m2"]["localisation"].get<double>(), 0.25, 1e-12);
+  EXPECT_NEAR(json["landmarks"]["ospa_m"].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(json["rigid"]["robot"]["position_rmse_m"].get<double>(), 0, 1e-9);
+  EXPECT_NEAR(json["rigid"]["landmarks"]["rmse_m"].get<double>(), 0, 1e-9);
   EXPECT_EQ(json["association"]["new"], 1);
 }
 

@@ -105,10 +105,12 @@ std::vector<Evaluation> evaluateTogether(const std::vector<RunWithTruth>& runs,
 {
   if (options.leverArm != Point2D()) return evaluateAtPoint(runs, options);
   const auto truthFromMap = alignment(runs, options.align, options.maxTruthGap);
+  const auto rigid = alignment(runs, Align::kRigid, options.maxTruthGap);
   if (!truthFromMap) options.align = Align::kNone;
   std::vector<Evaluation> out;
   for (const RunWithTruth& run : runs)
-    out.push_back(evaluate(*run.record, *run.truth, options, truthFromMap.value_or(Pose2D())));
+    out.push_back(
+        evaluate(*run.record, *run.truth, options, truthFromMap.value_or(Pose2D()), rigid));
   return out;
 }
 }  // namespace slamot::eval

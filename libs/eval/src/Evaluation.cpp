@@ -21,6 +21,20 @@ RobotEvaluation evaluateRobot(const Record& record, const Truth& truth,
   return out;
 }
 
+/// \param alignments as asked for, and rigid.
+RigidEvaluation evaluateRigid(const Record& record, const Truth& truth,
+                              const EvaluationOptions& options,
+                              const std::vector<Pose2D>& alignments)
+{
+  RigidEvaluation out;
+  out.truthFromMap = alignments.back();
+  out.robot = evaluateRobot(record, truth, options, out.truthFromMap).all;
+  out.targetSet = evaluateTargetSet(record, truth, options, out.truthFromMap);
+  out.truthFromLandmarks = alignMap(record, truth, options.gospaCutoff, alignments);
+  out.landmarks = evaluateLandmarks(record, truth, options, out.truthFromLandmarks);
+  return out;
+}
+
 /// True targets that no track stands for, where no track has taken their id.
 void addMissed(Evaluation& evaluation)
 {
@@ -34,13 +48,13 @@ void addMissed(Evaluation& evaluation)
 }  // namespace
 
 Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOptions& options,
-                    const Pose2D& truthFromMap)
+                    const Pose2D& truthFromMap, const std::optional<Pose2D>& rigid)
 {
   if (options.leverArm != Point2D())
   {
     EvaluationOptions there = options;
     there.leverArm = {};
-    return evaluate(ofPoint(record, options.leverArm), truth, there, truthFromMap);
+    return evaluate(ofPoint(record, options.leverArm), truth, there, truthFromMap, rigid);
   }
   Evaluation out;
   out.align = options.align;
@@ -49,8 +63,10 @@ Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOp
   out.targets = evaluateTracks(record, truth, options, truthFromMap);
   out.trueTargets = evaluateTrueTargets(record, truth, options, truthFromMap, out.targets);
   addMissed(out);
+  out.targetSet = evaluateTargetSet(record, truth, options, truthFromMap);
   out.landmarks = evaluateLandmarks(record, truth, options, truthFromMap);
   out.association = countAssociations(record, truth);
+  if (rigid) out.rigid = evaluateRigid(record, truth, options, {truthFromMap, *rigid});
   return out;
 }
 

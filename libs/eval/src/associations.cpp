@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "poseErrors.h"
 
@@ -34,7 +35,6 @@ class TrueIds
   const Truth& truth_;
 };
 
-/// The true landmark that most sightings of each mapped one were of; the earliest, if several.
 std::map<int, int> foundersByLandmark(const Record& record, const TrueIds& trueIds)
 {
   struct Votes
@@ -58,34 +58,87 @@ std::map<int, int> foundersByLandmark(const Record& record, const TrueIds& trueI
                           [&v = v](int a, int b) { return v.count.at(a) < v.count.at(b); });
   return out;
 }
+
+std::optional<double> share(int part, int of)
+{
+  if (of == 0) return std::nullopt;
+  return static_cast<double>(part) / of;
+}
+
+/// Takes in one sighting after another, in the order of the run.
+class Counter
+{
+ public:
+  Counter(const Record& record, const TrueIds& trueIds)
+      : trueIds_(trueIds), founders_(foundersByLandmark(record, trueIds))
+  {
+  }
+
+  void add(const PairingRow& row)
+  {
+    const Outcome outcome = row.pairing.outcome;
+    if (outcome == Outcome::kNew) ++out_.created;
+    if (outcome == Outcome::kRejected) ++out_.rejected;
+    const auto truly = trueIds_.of(row);
+    if (!truly) return;
+    anyTruth_ = true;
+    const bool isClutter = *truly == core::kNoId;
+    ++(isClutter ? out_.clutter : out_.sightings);
+    // Clutter belongs to no landmark, even one made of clutter.
+    const bool fits =
+        !isClutter && outcome != Outcome::kRejected && founders_.at(row.pairing.id) == *truly;
+    if (outcome == Outcome::kKnown) ++(fits ? correct_ : wrong_);
+    if (outcome == Outcome::kKnown && isClutter) ++out_.clutterPaired;
+    if (outcome == Outcome::kNew && fits && founded_.insert(*truly).second) ++out_.founded;
+  }
+
+  [[nodiscard]] AssociationCounts result() const
+  {
+    AssociationCounts out = out_;
+    if (anyTruth_) out.correct = correct_, out.wrong = wrong_;
+    return out;
+  }
+
+ private:
+  const TrueIds& trueIds_;
+  std::map<int, int> founders_;
+  AssociationCounts out_;
+  int correct_ = 0, wrong_ = 0;
+  bool anyTruth_ = false;
+  std::set<int> founded_;  // true landmarks that have one of the map
+};
 }  // namespace
+
+std::optional<double> AssociationCounts::rightOfPaired() const
+{
+  return share(correct.value_or(0), correct.value_or(0) + wrong.value_or(0));
+}
+std::optional<double> AssociationCounts::rightOfSightings() const
+{
+  return share(correct.value_or(0) + founded, sightings);
+}
+std::optional<double> AssociationCounts::pairedOfClutter() const
+{
+  return share(clutterPaired, clutter);
+}
+
+std::map<int, int> foundersByLandmark(const Record& record, const Truth& truth)
+{
+  return foundersByLandmark(record, TrueIds(truth));
+}
 
 std::optional<AssociationCounts> countAssociations(const Record& record, const Truth& truth)
 {
   const TrueIds trueIds(truth);
-  const std::map<int, int> founders = foundersByLandmark(record, trueIds);
-  AssociationCounts out;
-  int correct = 0, wrong = 0;
-  bool any = false, anyTruth = false;
+  Counter counter(record, trueIds);
+  bool any = false;
   for (const PairingRow& row : record.pairings)
   {
     if (row.pairing.isBlob) continue;
     any = true;
-    const auto truly = trueIds.of(row);
-    anyTruth = anyTruth || truly;
-    if (row.pairing.outcome == Outcome::kNew) ++out.created;
-    if (row.pairing.outcome == Outcome::kRejected) ++out.rejected;
-    if (row.pairing.outcome != Outcome::kKnown || !truly) continue;
-    // Clutter belongs to no landmark, even one made of clutter.
-    const bool right = *truly != core::kNoId && founders.at(row.pairing.id) == *truly;
-    ++(right ? correct : wrong);
+    counter.add(row);
   }
   if (!any) return std::nullopt;
-  if (anyTruth)
-  {
-    out.correct = correct;
-    out.wrong = wrong;
-  }
-  return out;
+  return counter.result();
 }
 }  // namespace slamot::eval

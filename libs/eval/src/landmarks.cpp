@@ -1,4 +1,5 @@
 #include <cmath>
+#include <set>
 
 #include "poseErrors.h"
 
@@ -30,6 +31,15 @@ std::vector<LandmarkMatch> matchById(const Record& record, const Truth& truth,
       out.push_back(match(record.landmarks[i], i, it->first, it->second, truthFromMap));
   return out;
 }
+
+std::optional<int> countSeen(const Truth& truth)
+{
+  if (truth.associations.empty()) return std::nullopt;
+  std::set<int> seen;
+  for (const TrueAssociation& a : truth.associations)
+    if (truth.landmarks.count(a.id)) seen.insert(a.id);
+  return static_cast<int>(seen.size());
+}
 }  // namespace
 
 LandmarkEvaluation evaluateLandmarks(const Record& record, const Truth& truth,
@@ -39,6 +49,7 @@ LandmarkEvaluation evaluateLandmarks(const Record& record, const Truth& truth,
   if (!record.hasMap) return out;
   out.mapped = static_cast<int>(record.landmarks.size());
   if (truth.landmarks.empty()) return out;
+  out.seen = countSeen(truth);
 
   TrueLandmarks truths;
   for (const auto& [id, p] : truth.landmarks)

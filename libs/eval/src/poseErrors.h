@@ -3,6 +3,7 @@
 #include <slamot/eval/Evaluation.h>
 
 #include <functional>
+#include <map>
 
 namespace slamot::eval
 {
@@ -30,8 +31,20 @@ namespace slamot::eval
 [[nodiscard]] std::vector<TargetEvaluation> evaluateTrueTargets(
     const Record&, const Truth&, const EvaluationOptions&, const Pose2D& truthFromMap,
     const std::vector<TargetEvaluation>& tracks);
+[[nodiscard]] std::optional<TargetSetErrors> evaluateTargetSet(const Record&, const Truth&,
+                                                               const EvaluationOptions&,
+                                                               const Pose2D& truthFromMap);
 [[nodiscard]] LandmarkEvaluation evaluateLandmarks(const Record&, const Truth&,
                                                    const EvaluationOptions&,
                                                    const Pose2D& truthFromMap);
+/// The rigid alignment under which a map is nearest to the true one: the one with the least GOSPA
+/// found, from several starts by turns of pairing and least squares.  A path's own alignment would
+/// not do: it was recorded while the map still drifted.
+/// \param starts alignments to try; at least one.
+[[nodiscard]] Pose2D alignMap(const Record&, const Truth&, double gospaCutoff,
+                              const std::vector<Pose2D>& starts);
+/// The true landmark that most sightings of each mapped one were of, the earliest if several;
+/// core::kNoId for clutter.  Landmarks of which the truth tells nothing are left out.
+[[nodiscard]] std::map<int, int> foundersByLandmark(const Record&, const Truth&);
 [[nodiscard]] std::optional<AssociationCounts> countAssociations(const Record&, const Truth&);
 }  // namespace slamot::eval

@@ -8,49 +8,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
+
+#include "errorJson.h"
 
 namespace slamot::results
 {
 namespace
 {
-using Json = nlohmann::ordered_json;
-
-template <class T>
-Json orNull(const std::optional<T>& value)
-{
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json errorsJson(const eval::ErrorSummary& e)
-{
-  return {{"position_mean_error_m", orNull(e.positionMean)},
-          {"position_median_error_m", orNull(e.positionMedian)},
-          {"position_rmse_m", orNull(e.positionRmse)},
-          {"heading_rmse_rad", orNull(e.headingRmse)},
-          {"nees_mean", orNull(e.neesMean)}};
-}
-
-Json landmarksJson(const eval::LandmarkEvaluation& l)
-{
-  std::optional<double> gospa;
-  if (l.gospa) gospa = l.gospa->total;
-  return {{"mapped", orNull(l.mapped)},
-          {"true", orNull(l.trueOnes)},
-          {"rmse_m", orNull(l.rmse)},
-          {"gospa_m", orNull(gospa)}};
-}
-
-Json associationJson(const std::optional<eval::AssociationCounts>& a)
-{
-  if (!a)
-    return {{"correct", nullptr}, {"wrong", nullptr}, {"new", nullptr}, {"rejected", nullptr}};
-  return {{"correct", orNull(a->correct)},
-          {"wrong", orNull(a->wrong)},
-          {"new", a->created},
-          {"rejected", a->rejected}};
-}
-
 Json particlesJson(const eval::Record& record)
 {
   Json out = {
@@ -68,16 +32,6 @@ Json particlesJson(const eval::Record& record)
   if (ess.empty()) return out;
   out["ess_min"] = *std::min_element(ess.begin(), ess.end());
   out["ess_median"] = math::quantile(ess, 0.5);
-  return out;
-}
-
-Json detailedErrors(const eval::ErrorSummary& e)
-{
-  Json out = {{"steps", e.count}};
-  out.update(errorsJson(e));
-  out["nees_position_mean"] = orNull(e.neesPositionMean);
-  out["coverage_95"] = orNull(e.coverage95);
-  out["nees_skipped"] = e.neesSkipped;
   return out;
 }
 
@@ -145,14 +99,15 @@ std::string summaryJson(const RunInfo& info, const eval::Record& record,
                {"targets", targets},
                {"landmarks", landmarksJson(evaluation.landmarks)},
                {"association", associationJson(evaluation.association)},
-               {"particles", particlesJson(record)}});
+               {"particles", particlesJson(record)},
+               {"target_set", targetSetJson(evaluation.targetSet)},
+               {"rigid", rigidJson(evaluation.rigid)}});
 }
 
 std::string evaluationJson(const eval::Record& record, const eval::Evaluation& evaluation)
 {
-  const Pose2D& t = evaluation.truthFromMap;
   Json out = {{"align", eval::nameOf(evaluation.align)},
-              {"truth_from_map", {{"x_m", t.x}, {"y_m", t.y}, {"theta_rad", t.phi}}},
+              {"truth_from_map", poseJson(evaluation.truthFromMap)},
               {"robot",
                {{"all", detailedErrors(evaluation.robot.all)},
                 {"at_scans", detailedErrors(evaluation.robot.atScans)}}},
@@ -160,13 +115,12 @@ std::string evaluationJson(const eval::Record& record, const eval::Evaluation& e
               {"true_targets", Json::array()},
               {"landmarks", landmarksJson(evaluation.landmarks)},
               {"association", associationJson(evaluation.association)},
-              {"particles", particlesJson(record)}};
+              {"particles", particlesJson(record)},
+              {"target_set", targetSetJson(evaluation.targetSet)},
+              {"rigid", rigidJson(evaluation.rigid)}};
   for (const auto& target : evaluation.targets) out["targets"].push_back(detailedTarget(target));
   for (const auto& target : evaluation.trueTargets)
     out["true_targets"].push_back(detailedTarget(target));
-  if (const auto& g = evaluation.landmarks.gospa)
-    out["landmarks"]["gospa_parts_m2"] = {
-        {"localisation", g->localisation}, {"missed", g->missed}, {"false", g->falseOnes}};
   return dump(out);
 }
 

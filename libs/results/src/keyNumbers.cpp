@@ -53,7 +53,9 @@ void addMapFacts(Table& table, const eval::LandmarkEvaluation& map)
   if (map.trueOnes) count += ", of these " + std::to_string(*map.mapped - *map.trueOnes) + " false";
   table.rows.push_back({"landmarks mapped", count});
   if (map.rmse) table.rows.push_back({"landmarks, RMSE", fixed(*map.rmse, 3) + " m"});
-  if (map.gospa) table.rows.push_back({"landmarks, GOSPA", fixed(map.gospa->total, 3) + " m"});
+  if (map.gospa)
+    table.rows.push_back({"landmarks, GOSPA; OSPA",
+                          fixed(map.gospa->total, 3) + " m; " + fixed(map.gospa->ospa, 3) + " m"});
 }
 
 void addAssociationFacts(Table& table, const eval::AssociationCounts& a)

@@ -79,16 +79,61 @@ std::string targetLines(const eval::Record& record, const TargetGroup& group, bo
   return text + "\n";
 }
 
-std::string landmarkLine(const eval::LandmarkEvaluation& l)
+std::string landmarkLine(const std::string& name, const eval::LandmarkEvaluation& l)
 {
   if (!l.mapped) return {};
-  std::string line = left("landmarks") + std::to_string(*l.mapped) + " mapped";
+  std::string line = left(name) + std::to_string(*l.mapped) + " mapped";
   if (l.trueOnes)
     line += ", " + std::to_string(*l.trueOnes) + " true, " +
             std::to_string(*l.mapped - *l.trueOnes) + " false";
   if (l.rmse) line += "; position " + fixed(*l.rmse, 3) + " m rmse";
-  if (l.gospa) line += "; GOSPA " + fixed(l.gospa->total, 3) + " m";
+  if (l.gospa)
+    line += "; GOSPA " + fixed(l.gospa->total, 3) + " m, OSPA " + fixed(l.gospa->ospa, 3) + " m";
   return line + "\n";
+}
+
+std::string gospaParts(double localisation, double missed, double falseOnes)
+{
+  return left("  GOSPA's parts") + "localisation " + fixed(localisation, 3) + ", missed " +
+         fixed(missed, 3) + ", false " + fixed(falseOnes, 3) + " m2\n";
+}
+
+std::string landmarkDetail(const eval::LandmarkEvaluation& l)
+{
+  std::string text;
+  if (l.seen) text += left("  seen") + std::to_string(*l.seen) + " true ones\n";
+  if (l.gospa) text += gospaParts(l.gospa->localisation, l.gospa->missed, l.gospa->falseOnes);
+  return text;
+}
+
+std::string targetSetLines(const std::optional<eval::TargetSetErrors>& t)
+{
+  if (!t) return {};
+  return left("targets as a set") + fixed(t->estimated, 2) + " tracked, " + fixed(t->truly, 2) +
+         " there, mean over the scans; GOSPA " + fixed(t->gospa, 3) + " m, OSPA " +
+         fixed(t->ospa, 3) + " m\n" + gospaParts(t->localisation, t->missed, t->falseOnes);
+}
+
+std::string rigidLines(const std::optional<eval::RigidEvaluation>& r)
+{
+  if (!r || r->robot.count == 0) return {};
+  std::string text = left("after rigid alignment");
+  if (r->robot.positionRmse) text += "robot " + fixed(*r->robot.positionRmse, 3) + " m rmse\n";
+  return text + landmarkLine("  landmarks", r->landmarks) + landmarkDetail(r->landmarks);
+}
+
+std::string percentOf(const char* what, const std::optional<double>& share)
+{
+  return share ? std::string("; ") + what + " " + fixed(100 * *share, 1) + "%" : "";
+}
+
+std::string associationDetail(const std::optional<eval::AssociationCounts>& a)
+{
+  if (!a || !a->correct) return {};
+  const std::string text = percentOf("right of those paired", a->rightOfPaired()) +
+                           percentOf("of those of landmarks", a->rightOfSightings()) +
+                           percentOf("false alarms paired", a->pairedOfClutter());
+  return text.empty() ? text : left("  shares") + text.substr(2) + "\n";
 }
 
 std::string associationLine(const std::optional<eval::AssociationCounts>& a)
@@ -113,8 +158,11 @@ std::string summaryTable(const eval::Record& record, const eval::Evaluation& e, 
   if (e.robot.all.coverage95 && e.robot.all.neesSkipped > 0)
     text += left("") + "NEES leaves out " + std::to_string(e.robot.all.neesSkipped) +
             " of the robot's steps, where its covariance is singular, as at an exact start\n";
-  text += landmarkLine(e.landmarks);
+  if (detailed) text += targetSetLines(e.targetSet);
+  text += landmarkLine("landmarks", e.landmarks);
+  if (detailed) text += landmarkDetail(e.landmarks);
   text += associationLine(e.association);
+  if (detailed) text += associationDetail(e.association) + rigidLines(e.rigid);
   if (record.close > 0)
     text += left("close") + std::to_string(record.close) +
             " sightings, too near for polar coordinates, taken along their ray\n";

@@ -150,6 +150,8 @@ StudySpec StudySpec::load(const std::string& path, const std::vector<std::string
   spec.firstSeed =
       static_cast<std::uint64_t>(p.integer("first_seed", 0, std::numeric_limits<int>::max(), 1));
   spec.align = p.choice("align", {"auto", "none", "first-pose", "rigid"}, "auto");
+  spec.landmarkCutoff = p.positive("landmark_cutoff_m", spec.landmarkCutoff);
+  spec.gospaCutoff = p.positive("gospa_cutoff_m", spec.gospaCutoff);
   spec.tables = readTables(study, p, !spec.reference.empty());
   spec.plots = readPlots(study, spec.axes);
   spec.published = readPublished(study);

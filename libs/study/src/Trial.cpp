@@ -9,6 +9,7 @@
 #include <slamot/sim/World.h>
 
 #include "hash.h"
+#include "tableText.h"
 
 namespace slamot::study
 {
@@ -89,6 +90,13 @@ void openRawlog(const std::string& path, const RawlogSource::Options& options, T
       {std::move(log), [truth]() -> const eval::Truth& { return *truth; }, starts});
 }
 
+/// How runs are judged, which their metrics depend on.
+std::string judging(const StudySpec& spec)
+{
+  return "align = " + spec.align + "\ncutoffs = " + shortest(spec.landmarkCutoff) + ", " +
+         shortest(spec.gospaCutoff);
+}
+
 eval::Align alignOf(const std::string& name, const core::Starts& starts)
 {
   if (name == "none") return eval::Align::kNone;
@@ -164,7 +172,9 @@ Trial openTrial(const StudySpec& spec, const Cell& cell, const Method& method, s
     makeFilter(config, seed, trial);
   config.requireAllRead(core::FilterRegistry::instance().names());
   trial.evaluation.align = alignOf(spec.align, trial.robots[0].starts);
-  trial.effective += config.effectiveText() + "align = " + spec.align;
+  trial.evaluation.landmarkCutoff = spec.landmarkCutoff;
+  trial.evaluation.gospaCutoff = spec.gospaCutoff;
+  trial.effective += config.effectiveText() + judging(spec);
   return trial;
 }
 }  // namespace slamot::study

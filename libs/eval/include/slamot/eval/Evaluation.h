@@ -77,16 +77,51 @@ struct LandmarkEvaluation
   std::vector<LandmarkMatch> matches;
   std::optional<int> mapped;    ///< landmarks of the map; none: the filter makes no map
   std::optional<int> trueOnes;  ///< those that stand for a true one; the rest is false
+  std::optional<int> seen;      ///< true landmarks with a sighting; none: truth doesn't tell
   std::optional<double> rmse;   ///< [m], over the matches
   std::optional<double> neesMean;
   std::optional<Gospa> gospa;
 };
 
-/// Landmark sightings by what became of them.
+/// Landmark sightings by what became of them.  Alignment changes nothing about them.
 struct AssociationCounts
 {
   std::optional<int> correct, wrong;  ///< paired with a landmark; none without truth
   int created = 0, rejected = 0;
+  // Without truth 0:
+  int sightings = 0;      ///< truly of a landmark
+  int founded = 0;        ///< of these, new ones, and the first that were made of their landmark
+  int clutter = 0;        ///< truly of none
+  int clutterPaired = 0;  ///< of these, paired with a landmark all the same
+
+  /// Of what was paired, what was paired rightly.
+  [[nodiscard]] std::optional<double> rightOfPaired() const;
+  /// Of sightings of landmarks, those paired rightly or rightly taken for new.
+  [[nodiscard]] std::optional<double> rightOfSightings() const;
+  /// Of clutter, what was paired.
+  [[nodiscard]] std::optional<double> pairedOfClutter() const;
+};
+
+/// The targets that are tracked against those that are there, as sets without identities: means
+/// over the scans.
+struct TargetSetErrors
+{
+  int scans = 0;
+  double estimated = 0, truly = 0;                     ///< the sets' sizes
+  double gospa = 0;                                    ///< [m]
+  double localisation = 0, missed = 0, falseOnes = 0;  ///< GOSPA's parts [m²]
+  double ospa = 0;                                     ///< [m]
+};
+
+/// What an alignment changes, after rigid ones: free of where a path, or a map, lies as a whole.
+struct RigidEvaluation
+{
+  Pose2D truthFromMap;  ///< of the path, and of the targets with it
+  ErrorSummary robot;
+  std::optional<TargetSetErrors> targetSet;
+  /// The map has its own: a path was recorded while the map still drifted.
+  Pose2D truthFromLandmarks;
+  LandmarkEvaluation landmarks;
 };
 
 struct Evaluation
@@ -98,15 +133,17 @@ struct Evaluation
   std::vector<TargetEvaluation> targets;
   /// One for each true target, over all tracks that stand for it; `id` is the truth's.
   std::vector<TargetEvaluation> trueTargets;
+  std::optional<TargetSetErrors> targetSet;  ///< none: there are no true targets, or no scans
   LandmarkEvaluation landmarks;
   std::optional<AssociationCounts> association;  ///< none: the filter pairs nothing
+  std::optional<RigidEvaluation> rigid;          ///< none without the robot's truth
 };
 
 struct EvaluationOptions
 {
   Align align = Align::kNone;
   double landmarkCutoff = 1.0;  ///< a landmark farther than this from any true one is false [m]
-  double gospaCutoff = 1.0;     ///< GOSPA's c [m]
+  double gospaCutoff = 1.0;     ///< GOSPA's and OSPA's c, of landmarks and of targets [m]
   double targetCutoff = 2.0;    ///< a track whose median error is larger stands for no target [m]
   double maxTruthGap = 2.0;     ///< truth is interpolated over gaps up to this [s]
   /// The point of the robot, in its own frame [m], whose path the truth is of, as of an antenna;
@@ -120,7 +157,8 @@ struct EvaluationOptions
 [[nodiscard]] Evaluation evaluate(const Record& record, const Truth& truth,
                                   const EvaluationOptions& options);
 
-/// The same with a known alignment, as of several robots together.
+/// The same with known alignments, as of several robots together.
 [[nodiscard]] Evaluation evaluate(const Record& record, const Truth& truth,
-                                  const EvaluationOptions& options, const Pose2D& truthFromMap);
+                                  const EvaluationOptions& options, const Pose2D& truthFromMap,
+                                  const std::optional<Pose2D>& rigid);
 }  // namespace slamot::eval

@@ -75,6 +75,8 @@ struct StudySpec
   int seeds = 1;
   std::uint64_t firstSeed = 1;
   std::string align;              ///< auto | none | first-pose | rigid
+  double landmarkCutoff = 1;      ///< see eval::EvaluationOptions [m]
+  double gospaCutoff = 1;         ///< the same [m]
   std::vector<TableSpec> tables;  ///< of the page, in the order of [study] tables
   std::vector<PlotSpec> plots;
   std::vector<Published> published;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <slamot/study/Metrics.h>
+
+#include <functional>
+
+/// The metrics by what they are of, each with how to take it.
+namespace slamot::study
+{
+using Value = std::optional<double>;
+
+/// What a metric is taken from.
+struct Measured
+{
+  const eval::Record& record;
+  const eval::Evaluation& evaluation;
+  const MessageFigures* messages = nullptr;  ///< of a robot in a team
+};
+
+struct MetricEntry
+{
+  Metric metric;
+  std::function<Value(const Measured&)> value;  ///< none: has no truth, or does not apply
+};
+
+[[nodiscard]] std::vector<MetricEntry> robotMetrics();
+[[nodiscard]] std::vector<MetricEntry> targetMetrics();
+[[nodiscard]] std::vector<MetricEntry> mapMetrics();
+[[nodiscard]] std::vector<MetricEntry> messageMetrics();
+
+/// Mean of `value` over the steps that `use` takes.
+[[nodiscard]] Value meanOver(const std::vector<eval::StepError>& steps,
+                             const std::function<bool(const eval::StepError&)>& use,
+                             const std::function<double(const eval::StepError&)>& value);
+/// Of the errors' sizes [rad].
+[[nodiscard]] Value headingMean(const std::vector<eval::StepError>& steps);
+/// A collapsed particle set claims certainty, and its NEES outweighs all others in a mean.
+[[nodiscard]] Value neesMedian(const std::vector<eval::StepError>& steps);
+/// [m]
+[[nodiscard]] double distance(const eval::StepError& s);
+
+template <class T>
+Value number(const std::optional<T>& v)
+{
+  if (!v) return std::nullopt;
+  return static_cast<double>(*v);
+}
+}  // namespace slamot::study
