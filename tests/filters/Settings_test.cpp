@@ -39,8 +39,7 @@ TEST(RbpfSettings, NeedLittle)
 
 TEST(RbpfSettings, NameWhatIsMissing)
 {
-  for (const char* key : {"particles", "proposal", "association", "target_velocity_std_mps",
-                          "target_velocity_time_s"})
+  for (const char* key : {"particles", "proposal", "association"})
     EXPECT_NE(errorOf(without(key)).find(std::string("[rbpf-slamot] ") + key + ": missing"),
               std::string::npos)
         << key;

@@ -76,6 +76,7 @@ class TrackMatching : public ::testing::Test
   {
     Settings s{};
     s.gates = {9.21, 23.0, 6.63, 19.5};
+    s.association = Association::kNearest;
     s.newDensity = 1e-4;
     s.tracking = kSensor;
     return s;

@@ -33,7 +33,14 @@ class Population
     Landmark& m = maps_[i].modify(pool_, lane(), slot);
     Landmark& o = oracles_[i][slot];
     ASSERT_TRUE(equal(m, o));  // a new one is a default one, also in memory that was used
-    o = {random_.normal(), random_.normal(), 1, 0.5, 2, o.sightings + 1, 0.5f};
+    o = {random_.normal(),
+         random_.normal(),
+         1,
+         0.5,
+         2,
+         static_cast<std::uint32_t>(o.sightings + 1),
+         0,
+         0.5f};
     m = o;
   }
   void erase()

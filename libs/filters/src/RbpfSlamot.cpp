@@ -2,9 +2,22 @@
 
 namespace slamot::filters
 {
+namespace
+{
+rbpf::Preset presetOf(const std::string& name)
+{
+  const std::string ekf = "ekf", unscented = "unscented", sampled = "sampled";
+  if (name == "fastslam1") return {100, "motion", "nn"};
+  if (name == "fastslam2") return {20, "informed", "nn"};
+  if (name == "ufastslam") return {20, unscented, "nn", unscented, "landmarks", sampled};
+  if (name == "gmphd-ufastslam") return {20, unscented, "nn", unscented, "gm-phd", sampled};
+  return {};  // rbpf-slamot: the configuration chooses
+}
+}  // namespace
+
 RbpfSlamot::RbpfSlamot(core::Params& params, const core::FilterContext& context)
 {
-  const rbpf::Settings settings = rbpf::Settings::from(params);
+  const rbpf::Settings settings = rbpf::Settings::from(params, presetOf(params.section()));
   engine_ = std::visit(
       [&](const auto& motion) -> std::unique_ptr<Engine>
       {

@@ -22,6 +22,8 @@ void registerAll()
   {
     add<DeadReckoning>("dead-reckoning");
     add<RbpfSlamot>("rbpf-slamot");
+    for (const char* family : {"fastslam1", "fastslam2", "ufastslam", "gmphd-ufastslam"})
+      add<RbpfSlamot>(family);
     add<EkfSlamot>("ekf-slamot");
     add<Independent>("independent");
     add<OdometryTarget>("odometry");

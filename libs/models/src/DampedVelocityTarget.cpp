@@ -10,7 +10,7 @@ using Start = core::ObjectStart;
 
 DampedVelocityTarget::Params DampedVelocityTarget::Params::from(core::Params& p)
 {
-  return {p.positive("target_velocity_std_mps"), p.positive("target_velocity_time_s")};
+  return {p.positive("target_velocity_std_mps", 1.0), p.positive("target_velocity_time_s", 10.0)};
 }
 
 DampedVelocityTarget::State DampedVelocityTarget::start(const Start& start) const

@@ -20,6 +20,7 @@ class BestMap : public core::LandmarkView
   MapFrame frame;
 
  private:
+  [[nodiscard]] bool isShown(const maps::Landmark& m) const;
   const Settings& settings_;
   const LandmarkScan& scan_;
 };

@@ -30,6 +30,7 @@ EngineOf<Motion>::EngineOf(const Settings& settings, const Motion& motion,
       particles_(pool_),
       tracks_(settings.tracks),
       scan_(settings_, pool_, workers_.lanes()),
+      intensity_(settings_, scan_, pool_),
       scratch_(static_cast<std::size_t>(workers_.lanes())),
       bestMap_(settings_, scan_)
 {
@@ -58,7 +59,7 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
     particles_.logWeight(i) = 0;
     p.pose = robot.mean;
     p.map.detach(pool_.newToken());
-    if (!settings_.informed)
+    if (!settings_.isInformed())
     {
       math::RandomStream random{seed_, kStartStream, i};
       const Vector3 d = L * random.normal3();
@@ -67,7 +68,7 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
     for (const Track& t : tracks_.list())
       p.targets.push_back(motion_.start(context.starts.targets.at(t.id)));
   }
-  if (settings_.informed) pending_.cov = bodyCov;
+  if (settings_.isInformed()) pending_.cov = bodyCov;
   particles_.beforeSubstitution = [this]
   {
     for (std::size_t t = 0; t < tracks_.list().size(); ++t)
@@ -124,7 +125,7 @@ void EngineOf<Motion>::move(const Gaussian<Pose2D>& increment)
 {
   pending_ = math::compose(pending_, increment);
   scan_.move(increment);
-  if (settings_.informed && std::sqrt(pending_.cov(2, 2)) < kLongestUnsampledTurn) return;
+  if (settings_.isInformed() && std::sqrt(pending_.cov(2, 2)) < kLongestUnsampledTurn) return;
   placed_ = true;
   samplePending(kMoveStream);
 }
@@ -160,12 +161,12 @@ template <class Motion>
 void EngineOf<Motion>::takeScan(const core::Step& step)
 {
   for (std::size_t i = 0; i < particles_.size(); ++i)
-    priors_[i] =
-        settings_.informed ? math::compose(particles_[i].pose, pending_.mean) : particles_[i].pose;
+    priors_[i] = settings_.isInformed() ? math::compose(particles_[i].pose, pending_.mean)
+                                        : particles_[i].pose;
   const bool seesAny = (step.landmarks && !step.landmarks->sightings.empty()) ||
                        (step.blobs && !step.blobs->blobs.empty());
-  if (settings_.informed && seesAny) settleFrame();
-  if (settings_.informed) pendingRoot_ = math::squareRoot(pending_.cov);
+  if (settings_.isInformed() && seesAny) settleFrame();
+  if (settings_.isInformed()) pendingRoot_ = math::squareRoot(pending_.cov);
   scan_.begin(step.landmarks ? &*step.landmarks : nullptr, step.time, priors_, pending_);
   blobRays_.rays.clear();
   blobRays_.blobs = step.blobs ? &step.blobs->blobs : nullptr;
@@ -211,12 +212,12 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
   out.mean = {prior.x, prior.y, prior.phi};
   out.cov.setZero();
   Matrix3 root = Matrix3::Zero();
-  if (settings_.informed)
+  if (settings_.isInformed())
   {
     root = math::poseRotation(p.pose.phi) * pendingRoot_;
     out.cov = root * root.transpose();
   }
-  const Matrix3* poseCov = settings_.informed ? &out.cov : nullptr;
+  const Matrix3* poseCov = settings_.isInformed() ? &out.cov : nullptr;
   double gain = 0;
   if (scan_.hasTracks())
   {
@@ -225,27 +226,66 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
         scan_.matchTracks(p.map, prior, root, p.followed, random, scratch.tracks, out.landmarks);
   }
   else
-    scan_.match(p.map, prior, out.cov, scratch.candidates, out.landmarks);
+    scan_.match(p.map, prior, root, scratch.match, out.landmarks);
   matchBlobs(prior, blobRays_, tracks_.list(), p.targets, settings_.gates, poseCov,
-             scratch.candidates, out.blobs);
-  PoseUpdate update;
-  gain += scan_.weigh(p.map, prior, out.cov, out.landmarks, scratch.innovations,
-                      settings_.informed ? &update : nullptr);
-  gain += weighTargets(i, prior, update);
-  const bool sampled = settings_.informed && scan_.size() + blobRays_.rays.size() > 0;
-  if (sampled) samplePose(i, root, update, gain);
+             scratch.match.candidates, out.blobs);
+  const bool sampled = settings_.isInformed() && scan_.size() + blobRays_.rays.size() > 0;
+  gain += sampled && settings_.marginalWeight ? placeByMarginal(i, root, scratch)
+                                              : placeBySample(i, root, scratch, sampled, lane);
   particles_.logWeight(i) += gain;
 
   const Eye eye = sampled ? Eye(p.pose) : prior;
-  scan_.apply(p.map, eye, out.landmarks, sampled ? nullptr : &scratch.innovations, lane);
+  if (!settings_.intensity)
+    scan_.apply(p.map, eye, out.landmarks,
+                sampled && settings_.marginalWeight ? nullptr : &scratch.innovations, lane);
   for (std::size_t k = 0; k < out.blobs.size(); ++k)
     if (out.blobs[k] >= 0)
       correctTarget(motion_, p.targets[static_cast<std::size_t>(out.blobs[k])], eye,
                     blobRays_.rays[k]);
 }
 
+// The weight is what the proposal's Gaussian integrates to: it does not depend on the sample.
 template <class Motion>
-double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate& update)
+double EngineOf<Motion>::placeByMarginal(std::size_t i, const Matrix3& root, Scratch& scratch)
+{
+  Outcome& out = outcomes_[i];
+  const Eye prior(priors_[i]);
+  PoseUpdate update;
+  double gain =
+      scan_.weigh(particles_[i].map, prior, out.cov, out.landmarks, scratch.innovations, &update);
+  gain += weighTargets(i, prior, &update);
+  const PoseUpdate::Result r = update.solve(root);
+  samplePose(i, r);
+  return gain + r.logGain;
+}
+
+// The weight is the likelihood at the pose, times the prior's density there over the proposal's.
+template <class Motion>
+double EngineOf<Motion>::placeBySample(std::size_t i, const Matrix3& root, Scratch& scratch,
+                                       bool sampled, int lane)
+{
+  auto& p = particles_[i];
+  Outcome& out = outcomes_[i];
+  double gain = 0;
+  if (sampled)
+  {
+    const Eye prior(priors_[i]);
+    PoseUpdate update = scan_.gather(p.map, prior, root, out.landmarks);
+    (void)weighTargets(i, prior, &update);
+    const PoseUpdate::Result r = update.solve(root);
+    const Vector3 u = samplePose(i, r), w = r.white + r.whiteRoot * u;
+    gain = 0.5 * (u.squaredNorm() - w.squaredNorm()) + r.logRoot;
+  }
+  const Eye eye(sampled ? p.pose : priors_[i]);
+  gain += weighTargets(i, eye, nullptr);
+  if (settings_.intensity)
+    return gain + intensity_.update(p.map, eye, out.landmarks, scratch.intensity, lane);
+  return gain +
+         scan_.weigh(p.map, eye, Matrix3::Zero(), out.landmarks, scratch.innovations, nullptr);
+}
+
+template <class Motion>
+double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate* update)
 {
   double sum = 0;
   const auto& p = particles_[i];
@@ -266,23 +306,22 @@ double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate&
       continue;
     }
     sum += logDensity(o, ray.hasRange);
-    if (settings_.informed) update.add(o);
+    if (update) update->add(o);
   }
   return sum;
 }
 
+/// \return the standard normal numbers drawn.
 template <class Motion>
-void EngineOf<Motion>::samplePose(std::size_t i, const Matrix3& root, const PoseUpdate& update,
-                                  double& logWeight)
+Vector3 EngineOf<Motion>::samplePose(std::size_t i, const PoseUpdate::Result& r)
 {
   Outcome& out = outcomes_[i];
-  const PoseUpdate::Result r = update.solve(root);
   out.mean += r.shift;
   out.cov = r.root * r.root.transpose();
-  logWeight += r.logGain;
   math::RandomStream random{seed_, kSampleStream, stepNumber_, i};
-  const Vector3 x = out.mean + r.root * random.normal3();
+  const Vector3 u = random.normal3(), x = out.mean + r.root * u;
   particles_[i].pose = {x[0], x[1], math::wrapToPi(x[2])};
+  return u;
 }
 
 template <class Motion>

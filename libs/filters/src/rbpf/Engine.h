@@ -1,6 +1,7 @@
 #pragma once
 
 #include "BestMap.h"
+#include "Intensity.h"
 #include "JointFusion.h"
 #include "ParticleSet.h"
 #include "Workers.h"
@@ -62,9 +63,10 @@ class EngineOf : public RbpfSlamot::Engine
   };
   struct Scratch
   {
-    std::vector<Candidate> candidates;
+    MatchScratch match;
     std::vector<Innovation> innovations;
     TrackScratch tracks;
+    Intensity::Scratch intensity;
   };
 
   void start(const core::FilterContext& context);
@@ -74,8 +76,11 @@ class EngineOf : public RbpfSlamot::Engine
   void takeScan(const core::Step& step);
   void settleFrame();
   void updateParticle(std::size_t i, int lane);
-  double weighTargets(std::size_t i, const Eye& eye, PoseUpdate& update);
-  void samplePose(std::size_t i, const Matrix3& root, const PoseUpdate& update, double& logWeight);
+  double placeByMarginal(std::size_t i, const Matrix3& root, Scratch& scratch);
+  double placeBySample(std::size_t i, const Matrix3& root, Scratch& scratch, bool sampled,
+                       int lane);
+  double weighTargets(std::size_t i, const Eye& eye, PoseUpdate* update);
+  Vector3 samplePose(std::size_t i, const PoseUpdate::Result& r);
   void settleTracks(double time);
   std::vector<double> voteShares(std::size_t blob, std::size_t known) const;
   void dropLostTracks(double time);
@@ -110,6 +115,7 @@ class EngineOf : public RbpfSlamot::Engine
   ParticleSet<State> particles_;
   Tracks tracks_;
   LandmarkScan scan_;
+  Intensity intensity_;
   BlobRays blobRays_;
   Gaussian<Pose2D> pending_;     // informed: motion since the poses were last sampled
   Matrix3 pendingRoot_;          // a square root of its covariance, for the scan

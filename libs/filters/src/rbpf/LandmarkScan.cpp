@@ -1,5 +1,7 @@
 #include "LandmarkScan.h"
 
+#include "sighting/Targets.h"
+
 #include <algorithm>
 
 namespace slamot::filters::rbpf
@@ -9,28 +11,14 @@ namespace
 constexpr double kLogTwoPi = 1.8378770664093453;
 constexpr double kFalseAlarm = 0.05;  // chance that a wrong landmark is "seen" where it should be
 constexpr float kMostExistence = 4.0f, kGoneExistence = -2.0f;  // log odds
-
-/// The places that a sighting may be of, over all particles' poses.
-maps::Box placesOf(const Ray& ray, const maps::Box& poses, double middle, double halfSpan)
-{
-  const double a = middle + ray.bearing;
-  const double x = ray.range * std::cos(a), y = ray.range * std::sin(a);
-  return maps::Box{poses.xMin + x, poses.yMin + y, poses.xMax + x, poses.yMax + y}.grown(
-      ray.range * std::min(2.0, halfSpan));
-}
-
-void sortUnique(std::vector<std::uint32_t>& v)
-{
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
-}
 }  // namespace
 
 LandmarkScan::LandmarkScan(const Settings& settings, maps::LandmarkPool& pool, int lanes)
     : settings_(settings),
+      slots_(settings, lanes),
       tracks_(settings.tracking),
-      pool_(pool),
-      extents_(static_cast<std::size_t>(lanes))
+      joint_(settings),
+      pool_(pool)
 {
   if (settings.detection <= 0) return;
   hitLogOdds_ = std::log(settings.detection / kFalseAlarm);
@@ -40,147 +28,100 @@ LandmarkScan::LandmarkScan(const Settings& settings, maps::LandmarkPool& pool, i
 void LandmarkScan::begin(const core::LandmarkScan* scan, double time,
                          const std::vector<Pose2D>& priors, const Gaussian<Pose2D>& pending)
 {
-  rays_.clear();
+  slots_.begin(scan, time, priors, pending);
   logNew_.clear();
-  inView_.clear();
-  touched_.clear();
-  newSlots_.clear();
   if (!scan) return;
-  time_ = time;
-  fov_ = scan->fov;
-  for (const core::Sighting& s : scan->sightings)
-  {
-    const Ray ray = settings_.ray(s);
-    rays_.push_back(ray);
-    // By default the density of a pair that the inner gate just lets pass, for a landmark as
-    // uncertain as its sighting: then neither calling a thing known nor new pays in itself.
+  // By default the density of a pair that the inner gate just lets pass, for a landmark as
+  // uncertain as its sighting: then neither calling a thing known nor new pays in itself.
+  for (const Ray& ray : slots_.rays())
     logNew_.push_back(settings_.newDensity > 0
                           ? std::log(settings_.newDensity)
                           : -0.5 * settings_.gates.inner - kLogTwoPi -
                                 0.5 * std::log(4 * ray.varRange * ray.varBearing));
-  }
-  if (settings_.knownIds)
-    findKnown(*scan);
-  else
-  {
-    findCandidates(priors, pending);
-    if (settings_.detection > 0) findInView(*scan, priors);
-    sortUnique(touched_);
-    if (tracks_.isOn()) tracks_.link(rays_, time);
-  }
-  for (std::size_t j = 0; j < rays_.size(); ++j)
-    newSlots_.push_back(settings_.knownIds && knownSlots_[j] >= 0
-                            ? static_cast<std::uint32_t>(knownSlots_[j])
-                            : index_.reserve());
-  setNoise();
-  for (auto& lane : extents_)
-    if (lane.size() < index_.capacity()) lane.resize(index_.capacity());
-  for (auto& lane : extents_)
-  {
-    for (const std::uint32_t slot : touched_) lane[slot] = {};
-    for (const std::uint32_t slot : newSlots_) lane[slot] = {};
-  }
+  if (settings_.clutter > 0) logClutter_ = std::log(settings_.clutterDensity(scan->fov));
+  if (tracks_.isOn()) tracks_.link(slots_.rays(), time);
+  if (settings_.isJoint()) joint_.reserve(slots_.size());
 }
 
-void LandmarkScan::setNoise()
+/// f(sighting, slot, innovation without the pose's part, the same with it) for what passes the
+/// outer gate.
+template <class F>
+void LandmarkScan::forPossiblePairs(const maps::LandmarkMap& map, const Eye& eye,
+                                    const Matrix3& root, F&& f) const
 {
-  if (settings_.correlationTime <= 0) return;
-  lastSeen_.resize(index_.capacity(), -1e300);
-  noise_.resize(index_.capacity());
-  for (std::size_t slot = 0; slot < noise_.size(); ++slot)
-    noise_[slot] = settings_.noiseAfter(time_ - lastSeen_[slot]);
-  for (const std::uint32_t slot : newSlots_)
-    if (!settings_.knownIds) lastSeen_[slot] = -1e300;  // the slot's last landmark is another's
-}
-
-void LandmarkScan::findKnown(const core::LandmarkScan& scan)
-{
-  knownSlots_.clear();
-  pendingIds_.clear();
-  for (const core::Sighting& s : scan.sightings)
-  {
-    const auto it = slotOfId_.find(s.id);
-    const bool repeated =
-        std::find(pendingIds_.begin(), pendingIds_.end(), s.id) != pendingIds_.end();
-    knownSlots_.push_back(s.id == core::kNoId || repeated ? kRejected
-                          : it == slotOfId_.end()         ? kNew
-                                                          : static_cast<std::int32_t>(it->second));
-    pendingIds_.push_back(s.id);
-  }
-  idOfSlot_.resize(std::max(idOfSlot_.size(), index_.capacity() + scan.sightings.size()),
-                   core::kNoId);
-}
-
-void LandmarkScan::findCandidates(const std::vector<Pose2D>& priors,
-                                  const Gaussian<Pose2D>& pending)
-{
-  maps::Box poses;
-  double low = 0, high = 0;
-  for (const Pose2D& p : priors)
-  {
-    poses.include(p.x, p.y);
-    const double d = math::wrapToPi(p.phi - priors[0].phi);
-    low = std::min(low, d);
-    high = std::max(high, d);
-  }
-  const double middle = priors[0].phi + 0.5 * (low + high), halfSpan = 0.5 * (high - low);
-  const double sigmas = std::sqrt(settings_.gates.outer);
-  const double poseStd = std::sqrt(pending.cov(0, 0) + pending.cov(1, 1));
-  near_.resize(std::max(near_.size(), rays_.size()));
-  for (std::size_t j = 0; j < rays_.size(); ++j)
-  {
-    const Ray& ray = rays_[j];
-    // The gate's reach: standard deviations of parts add up to more than that of the sum.
-    const double reach = sigmas * (std::sqrt(ray.varRange) + poseStd);
-    const double across =
-        sigmas * (ray.range + reach) * std::sqrt(ray.varBearing + pending.cov(2, 2));
-    index_.query(placesOf(ray, poses, middle, halfSpan).grown(reach + across), sigmas, near_[j]);
-    touched_.insert(touched_.end(), near_[j].begin(), near_[j].end());
-  }
-}
-
-void LandmarkScan::findInView(const core::LandmarkScan& scan, const std::vector<Pose2D>& priors)
-{
-  maps::Box poses;
-  for (const Pose2D& p : priors) poses.include(p.x, p.y);
-  index_.query(poses.grown(scan.fov.rangeMax), 0, inView_);
-  touched_.insert(touched_.end(), inView_.begin(), inView_.end());
-}
-
-void LandmarkScan::noteExtent(int lane, std::uint32_t slot, const maps::Landmark& m)
-{
-  extents_[static_cast<std::size_t>(lane)][slot].include(m.x, m.y,
-                                                         largestEigenvalue(m.cxx, m.cxy, m.cyy));
-}
-
-void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov,
-                         std::vector<Candidate>& candidates, std::vector<std::int32_t>& matches)
-{
-  matches.resize(rays_.size());
-  if (settings_.knownIds)
-  {
-    for (std::size_t j = 0; j < rays_.size(); ++j)
-      matches[j] = knownSlots_[j] >= 0 && !map.find(static_cast<std::uint32_t>(knownSlots_[j]))
-                       ? kNew
-                       : knownSlots_[j];
-    return;
-  }
-  candidates.clear();
-  const bool spread = poseCov.trace() > 0;
-  for (std::size_t j = 0; j < rays_.size(); ++j)
-    for (const std::uint32_t slot : near_[j])
+  const Matrix3 poseCov = root * root.transpose();
+  const bool spread = settings_.isInformed() && poseCov.trace() > 0;
+  for (std::size_t j = 0; j < slots_.size(); ++j)
+    for (const std::uint32_t slot : slots_.near(j))
     {
       const maps::Landmark* m = map.find(slot);
       Innovation o;
       // With the sighting's whole noise: which landmark it is of does not get less sure by
       // repetition.
-      if (!m || !innovate(eye, rays_[j], m->x, m->y, m->cxx, m->cxy, m->cyy, o)) continue;
-      if (spread) o = withPose(o, poseCov);
-      if (o.d2 <= settings_.gates.outer)
-        candidates.push_back({o.d2 + std::log(o.det), static_cast<std::int32_t>(j),
-                              static_cast<std::int32_t>(slot), o.d2 <= settings_.gates.inner});
+      if (!m || !mayBeOf(*m) || !innovateLandmark(eye, j, *m, spread ? &poseCov : nullptr, o, 1))
+        continue;
+      const Innovation whole = spread ? withPose(o, poseCov) : o;
+      if (whole.d2 <= settings_.gates.outer)
+        f(static_cast<std::int32_t>(j), static_cast<std::int32_t>(slot), o, whole);
     }
-  matchGreedily(candidates, matches);
+}
+
+void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
+                         MatchScratch& scratch, std::vector<std::int32_t>& matches) const
+{
+  matches.resize(slots_.size());
+  if (settings_.isKnown())
+  {
+    for (std::size_t j = 0; j < slots_.size(); ++j)
+    {
+      const std::int32_t known = slots_.known()[j];
+      matches[j] = known >= 0 && !map.find(static_cast<std::uint32_t>(known)) ? kNew : known;
+    }
+    return;
+  }
+  if (settings_.association == Association::kNearest)
+  {
+    scratch.candidates.clear();
+    forPossiblePairs(map, eye, root,
+                     [&](std::int32_t j, std::int32_t slot, const Innovation&, const Innovation& o)
+                     {
+                       scratch.candidates.push_back(
+                           {o.d2 + std::log(o.det), j, slot, o.d2 <= settings_.gates.inner});
+                     });
+    matchGreedily(scratch.candidates, matches);
+    return;
+  }
+  scratch.joint.pairs.clear();
+  forPossiblePairs(
+      map, eye, root,
+      [&](std::int32_t j, std::int32_t slot, const Innovation& o, const Innovation& whole) {
+        scratch.joint.pairs.push_back({j, slot, o, whole.d2});
+      });
+  joint_.match(settings_.isInformed() ? root : Matrix3::Zero(), logNew_, scratch.joint, matches);
+}
+
+PoseUpdate LandmarkScan::gather(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
+                                const std::vector<std::int32_t>& matches) const
+{
+  PoseUpdate update;
+  Matrix3 poseCov = root * root.transpose();
+  Eye from = eye;
+  Vector3 shift = Vector3::Zero();
+  for (std::size_t j = 0; j < matches.size(); ++j)
+  {
+    if (matches[j] < 0) continue;
+    const auto slot = static_cast<std::uint32_t>(matches[j]);
+    const maps::Landmark* m = map.find(slot);
+    Innovation o;
+    if (!m || !innovateLandmark(from, j, *m, &poseCov, o, slots_.noise(slot))) continue;
+    update.add(shifted(o, -shift));
+    if (!settings_.sequential) continue;
+    const PoseUpdate::Result pose = update.solve(root);
+    shift = pose.shift;
+    poseCov = pose.root * pose.root.transpose();
+    from = Eye({eye.x + shift[0], eye.y + shift[1], eye.phi + shift[2]});
+  }
+  return update;
 }
 
 double LandmarkScan::weigh(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& poseCov,
@@ -189,14 +130,15 @@ double LandmarkScan::weigh(const maps::LandmarkMap& map, const Eye& eye, const M
 {
   double sum = 0;
   LogProduct dets;
-  innovations.resize(rays_.size());
-  for (std::size_t j = 0; j < rays_.size(); ++j)
+  innovations.resize(slots_.size());
+  for (std::size_t j = 0; j < slots_.size(); ++j)
   {
     Innovation& o = innovations[j];
     const maps::Landmark* m =
         matches[j] < 0 ? nullptr : map.find(static_cast<std::uint32_t>(matches[j]));
-    bool paired = m && innovateLandmark(eye, j, static_cast<std::uint32_t>(matches[j]), *m, o);
-    if (paired && settings_.knownIds)
+    bool paired = m && innovateLandmark(eye, j, *m, update ? &poseCov : nullptr, o,
+                                        slots_.noise(static_cast<std::uint32_t>(matches[j])));
+    if (paired && settings_.isKnown())
       paired = (update ? withPose(o, poseCov).d2 : o.d2) <= settings_.gates.outer;
     if (!paired)
     {
@@ -215,33 +157,48 @@ void LandmarkScan::apply(maps::LandmarkMap& map, const Eye& eye,
                          const std::vector<std::int32_t>& matches,
                          const std::vector<Innovation>* innovations, int lane)
 {
-  for (const std::uint32_t slot : touched_)
-    if (const maps::Landmark* m = map.find(slot)) noteExtent(lane, slot, *m);
-  for (std::size_t j = 0; j < rays_.size(); ++j)
+  for (const std::uint32_t slot : slots_.touched())
+    if (const maps::Landmark* m = map.find(slot)) slots_.noteExtent(lane, slot, *m);
+  for (std::size_t j = 0; j < slots_.size(); ++j)
   {
     if (matches[j] == kRejected) continue;
     const std::uint32_t slot =
-        matches[j] == kNew ? newSlots_[j] : static_cast<std::uint32_t>(matches[j]);
+        matches[j] == kNew ? slots_.newSlot(j) : static_cast<std::uint32_t>(matches[j]);
     maps::Landmark& m = map.modify(pool_, lane, slot);
-    if (matches[j] == kNew)
-    {
-      const Gaussian<Point2D> place = invert(eye, rays_[j]);
-      m = {place.mean.x, place.mean.y, place.cov(0, 0), place.cov(0, 1), place.cov(1, 1), 1, 0};
-    }
-    else if (innovations)
-      correct(m, (*innovations)[j]);
-    else if (Innovation o; innovateLandmark(eye, j, slot, m, o))
-      correct(m, o);
-    m.existence = std::min(kMostExistence, m.existence + static_cast<float>(hitLogOdds_));
-    if (!settings_.knownIds) noteExtent(lane, slot, m);
+    if (matches[j] == kNew) m = bornFrom(eye, j);
+    Innovation o;
+    const bool seen = matches[j] != kNew &&
+                      (innovations || innovateLandmark(eye, j, m, nullptr, o, slots_.noise(slot)));
+    if (seen && innovations) o = (*innovations)[j];
+    if (seen) correct(m, o);
+    m.existence = std::min(kMostExistence, m.existence + hitLogOdds(seen ? &o : nullptr));
+    if (!settings_.isKnown()) slots_.noteExtent(lane, slot, m);
   }
-  if (!inView_.empty()) applyMisses(map, eye, matches, lane);
+  if (!slots_.inView().empty()) applyMisses(map, eye, matches, lane);
+}
+
+maps::Landmark LandmarkScan::bornFrom(const Eye& eye, std::size_t j) const
+{
+  const Ray& ray = slots_.rays()[j];
+  const auto place = settings_.unscentedMap ? invertUnscented(eye, ray) : invert(eye, ray);
+  return {place.mean.x, place.mean.y, place.cov(0, 0), place.cov(0, 1), place.cov(1, 1), 1, 0};
+}
+
+// Where the clutter's density is known, by how much likelier the sighting is of the landmark; a new
+// one may be either.
+float LandmarkScan::hitLogOdds(const Innovation* o) const
+{
+  if (!(settings_.clutter > 0) || settings_.detection <= 0) return static_cast<float>(hitLogOdds_);
+  if (!o) return 0;
+  const double ratio = std::log(settings_.detection) + logDensity(*o, true) - logClutter_;
+  return static_cast<float>(std::clamp(ratio, -1.0, 4.0));
 }
 
 void LandmarkScan::applyMisses(maps::LandmarkMap& map, const Eye& eye,
                                const std::vector<std::int32_t>& matches, int lane)
 {
-  for (const std::uint32_t slot : inView_)
+  const core::FieldOfView& fov = slots_.fov();
+  for (const std::uint32_t slot : slots_.inView())
   {
     const maps::Landmark* m = map.find(slot);
     if (!m ||
@@ -252,10 +209,9 @@ void LandmarkScan::applyMisses(maps::LandmarkMap& map, const Eye& eye,
     // Only what is clearly in view counts as missed: three deviations inside the limits.
     const double margin = 3 * std::sqrt(largestEigenvalue(m->cxx, m->cxy, m->cyy));
     const double turn = margin / std::max(r, 0.1);
-    const bool allRound = fov_.bearingMax - fov_.bearingMin > math::kTwoPi - 1e-6;
-    if (r < fov_.rangeMin + margin || r > fov_.rangeMax - margin) continue;
-    if (!allRound && (bearing < fov_.bearingMin + turn || bearing > fov_.bearingMax - turn))
-      continue;
+    const bool allRound = fov.bearingMax - fov.bearingMin > math::kTwoPi - 1e-6;
+    if (r < fov.rangeMin + margin || r > fov.rangeMax - margin) continue;
+    if (!allRound && (bearing < fov.bearingMin + turn || bearing > fov.bearingMax - turn)) continue;
     const float odds = m->existence + static_cast<float>(missLogOdds_);
     if (odds < kGoneExistence)
       map.erase(pool_, lane, slot);
@@ -264,51 +220,4 @@ void LandmarkScan::applyMisses(maps::LandmarkMap& map, const Eye& eye,
   }
 }
 
-void LandmarkScan::finish(const std::vector<const std::vector<std::int32_t>*>& matches)
-{
-  if (settings_.correlationTime > 0)
-    for (const auto* m : matches)
-      for (std::size_t j = 0; j < rays_.size(); ++j)
-        if ((*m)[j] != kRejected)
-          lastSeen_[(*m)[j] == kNew ? newSlots_[j] : static_cast<std::size_t>((*m)[j])] = time_;
-  for (std::size_t j = rays_.size(); j-- > 0;)  // backwards, so that unused numbers are given back
-  {
-    if (settings_.knownIds && knownSlots_[j] >= 0) continue;
-    const bool used =
-        std::any_of(matches.begin(), matches.end(), [&](const auto* m) { return (*m)[j] == kNew; });
-    if (!used)
-      index_.release(newSlots_[j]);
-    else if (settings_.knownIds)
-    {
-      slotOfId_[pendingIds_[j]] = newSlots_[j];
-      idOfSlot_[newSlots_[j]] = pendingIds_[j];
-    }
-    else
-      touched_.push_back(newSlots_[j]);
-  }
-  for (const std::uint32_t slot : touched_)
-  {
-    maps::SlotExtent extent;
-    for (const auto& lane : extents_)
-      if (!lane[slot].means.empty())
-      {
-        extent.means.include(lane[slot].means);
-        extent.largestVar = std::max(extent.largestVar, lane[slot].largestVar);
-      }
-    if (extent.means.empty())
-      index_.release(slot);  // no particle holds it any more
-    else
-      index_.place(slot, extent);
-  }
-}
-
-void LandmarkScan::releaseUnoccupied(const std::vector<bool>& occupied)
-{
-  if (!settings_.knownIds) index_.releaseUnoccupied(occupied);
-}
-
-int LandmarkScan::idOf(std::uint32_t slot) const
-{
-  return settings_.knownIds ? idOfSlot_[slot] : static_cast<int>(index_.serial(slot));
-}
 }  // namespace slamot::filters::rbpf

@@ -33,6 +33,11 @@ class PoseUpdate
     Vector3 shift;   ///< of the mean, from x0
     Matrix3 root;    ///< a square root L of the covariance L Lᵀ
     double logGain;  ///< log of the marginal over the likelihood at x0: ½ (bᵀ P b - ln|I + P0 A|)
+    // The same in the prior's own coordinates w, x = x0 + root0 w with w ~ N(0, I), where a
+    // singular prior has a density too.
+    Vector3 white;      ///< mean of w
+    Matrix3 whiteRoot;  ///< a square root of its covariance
+    double logRoot;     ///< ln of that root's determinant
   };
   /// \param root a square root of the prior: P0 = root rootᵀ.
   [[nodiscard]] Result solve(const Matrix3& root) const
@@ -44,7 +49,10 @@ class PoseUpdate
     out.root = llt.matrixL().solve(root.transpose()).transpose();
     out.shift = out.root * (out.root.transpose() * vector_);
     const Vector3 diagonal = llt.matrixLLT().diagonal();
-    out.logGain = 0.5 * vector_.dot(out.shift) - std::log(diagonal.prod());
+    out.logRoot = -std::log(diagonal.prod());
+    out.logGain = 0.5 * vector_.dot(out.shift) + out.logRoot;
+    out.whiteRoot = llt.matrixU().solve(Matrix3::Identity());
+    out.white = out.whiteRoot * (out.root.transpose() * vector_);
     return out;
   }
 

@@ -1,25 +1,23 @@
 #include "Settings.h"
 
+#include <slamot/math/statistics.h>
+
 namespace slamot::filters::rbpf
 {
-Settings Settings::from(core::Params& p)
+namespace
+{
+/// The choice made, by its place in the list.
+template <class Enum>
+Enum chosen(core::Params& p, const std::string& key, const std::vector<std::string>& names,
+            const std::optional<std::string>& otherwise)
+{
+  const std::string name = p.choice(key, names, otherwise);
+  return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void readResampling(core::Params& p, Settings& s)
 {
   using PF = ::mrpt::bayes::CParticleFilter;
-  Settings s{};
-  static_cast<TargetSettings&>(s) = TargetSettings::from(p);
-  s.particles = p.integer("particles", 1, 1000000);
-  s.informed = p.choice("proposal", {"motion", "informed"}) == "informed";
-  s.knownIds = p.choice("association", {"known", "nn"}) == "known";
-  s.newDensity = p.nonNegative("new_density_per_m_rad", 0.0);
-  static_cast<LandmarkNoise&>(s) = LandmarkNoise::from(p);
-  if (!s.knownIds)
-    s.tracking = {p.nonNegative("follow_range_std_m", 0.0),
-                  p.nonNegative("follow_bearing_std_deg", 0.0)};
-  if ((s.tracking.rangeStd > 0) != (s.tracking.bearingStd > 0))
-    p.fail("follow_bearing_std_deg", "and follow_range_std_m go together",
-           "set both above 0, or neither");
-  s.confirmSightings = p.integer("confirm_sightings", 1, 1000000, s.knownIds ? 1 : 3);
-  s.detection = p.inRange("detection_probability", 0, 0.999, 0.0);
   s.resampling.BETA = p.inRange("resample_below_ess", 0, 1, 0.5);
   const std::string scheme =
       p.choice("resampling", {"systematic", "stratified", "residual", "multinomial"}, "systematic");
@@ -27,10 +25,72 @@ Settings Settings::from(core::Params& p)
                                   : scheme == "stratified" ? PF::prStratified
                                   : scheme == "residual"   ? PF::prResidual
                                                            : PF::prMultinomial;
-  s.resampling.PF_algorithm = s.informed ? PF::pfOptimalProposal : PF::pfStandardProposal;
+  s.resampling.PF_algorithm = s.isInformed() ? PF::pfOptimalProposal : PF::pfStandardProposal;
   s.resampling.adaptiveSampleSize = false;
   s.resampling.sampleSize = static_cast<unsigned>(s.particles);
+}
+
+IntensitySettings readIntensity(core::Params& p, double detection)
+{
+  IntensitySettings s{};
+  s.birthWeight = p.positive("birth_weight", 0.01);
+  s.pruneWeight = p.positive("prune_weight", 1e-4);
+  // Within this distance, a Gaussian's own points lie with a chance of 1 - exp(-U/2).
+  s.mergeDistance2 = p.positive("merge_distance2", 4.0);
+  s.floorVar = std::pow(p.nonNegative("merge_floor_std_m", 0.1), 2);
+  s.mostComponents = p.integer("most_components", 1, 10000000, 20000);
+  s.confirm = p.positive("confirm_weight", 0.5);
+  // Lower than what one miss leaves of a sure component.
+  s.unconfirm = p.positive("unconfirm_weight", 0.25 * (1 - detection));
+  if (s.unconfirm >= s.confirm)
+    p.fail("unconfirm_weight", "is not below confirm_weight", "make it smaller");
+  s.weight = chosen<IntensityWeight>(p, "particle_weight",
+                                     {"cluster", "single-feature", "empty-set"}, "cluster");
   return s;
 }
 
+void checkTogether(const core::Params& p, const Settings& s)
+{
+  if ((s.tracking.rangeStd > 0) != (s.tracking.bearingStd > 0))
+    p.fail("follow_bearing_std_deg", "and follow_range_std_m go together",
+           "set both above 0, or neither");
+  if (s.intensity && s.isKnown())
+    p.fail("association", "known is not for map = gm-phd, which pairs nothing", "choose nn");
+  if (s.intensity && s.marginalWeight)
+    p.fail("weight", "marginal is not for map = gm-phd", "set sampled");
+  if (s.intensity && !(s.detection > 0 && s.clutter > 0))
+    p.fail(s.clutter > 0 ? "detection_probability" : "clutter_per_scan",
+           "must be above 0 for map = gm-phd");
+  if (s.sequential && s.marginalWeight)
+    p.fail("weight", "marginal is not for proposal_update = sequential", "set sampled");
+}
+}  // namespace
+
+Settings Settings::from(core::Params& p, const Preset& preset)
+{
+  Settings s{};
+  static_cast<TargetSettings&>(s) = TargetSettings::from(p);
+  s.particles = p.integer("particles", 1, 1000000, preset.particles);
+  s.proposal =
+      chosen<Proposal>(p, "proposal", {"motion", "informed", "unscented"}, preset.proposal);
+  s.unscentedMap = p.choice("map_update", {"ekf", "unscented"}, preset.mapUpdate) == "unscented";
+  s.sequential = p.choice("proposal_update", {"batch", "sequential"}, "batch") == "sequential";
+  const bool intensity = p.choice("map", {"landmarks", "gm-phd"}, preset.map) == "gm-phd";
+  s.marginalWeight = p.choice("weight", {"marginal", "sampled"}, preset.weight) == "marginal";
+  s.association = chosen<Association>(p, "association", {"known", "nn", "scnn", "jcbb", "jml"},
+                                      preset.association);
+  s.gateProbability = p.probability("gate_probability", 0.99);
+  s.newDensity = p.nonNegative("new_density_per_m_rad", 0.0);
+  static_cast<LandmarkNoise&>(s) = LandmarkNoise::from(p);
+  if (s.association == Association::kNearest && !intensity)
+    s.tracking = {p.nonNegative("follow_range_std_m", 0.0),
+                  p.nonNegative("follow_bearing_std_deg", 0.0)};
+  s.confirmSightings = p.integer("confirm_sightings", 1, 1000000, s.isKnown() || intensity ? 1 : 3);
+  s.detection = p.inRange("detection_probability", 0, 0.999, intensity ? 0.95 : 0.0);
+  s.clutter = p.nonNegative("clutter_per_scan", intensity ? 0.1 : 0.0);
+  if (intensity) s.intensity = readIntensity(p, s.detection);
+  checkTogether(p, s);
+  readResampling(p, s);
+  return s;
+}
 }  // namespace slamot::filters::rbpf

@@ -41,14 +41,14 @@ void LandmarkScan::listChoices(const maps::LandmarkMap& map, const Eye& eye,
 {
   choices.assign(1, {kNew, logNew_[j], {}});
   const Matrix3 poseCov = pose.root * pose.root.transpose();
-  for (const std::uint32_t slot : near_[j])
+  for (const std::uint32_t slot : slots_.near(j))
   {
     const auto what = static_cast<std::int32_t>(slot);
     const maps::Landmark* m = map.find(slot);
     if (!m || std::find(matches.begin(), matches.end(), what) != matches.end()) continue;
     Innovation o;
     // With the sighting's whole noise, as in match().
-    if (!innovate(eye, rays_[j], m->x, m->y, m->cxx, m->cxy, m->cyy, o)) continue;
+    if (!innovateLandmark(eye, j, *m, &poseCov, o, 1)) continue;
     const Innovation now = withPose(shifted(o, pose.shift), poseCov);
     if (now.d2 <= settings_.gates.outer)
       choices.push_back({what, -0.5 * (now.d2 + std::log(now.det)) - kLogTwoPi, o});
@@ -62,14 +62,16 @@ PoseUpdate LandmarkScan::continueTracks(const maps::LandmarkMap& map, const Eye&
 {
   const Matrix3 poseCov = root * root.transpose();
   scratch.candidates.clear();
-  scratch.innovations.resize(rays_.size());
-  for (std::size_t j = 0; j < rays_.size(); ++j)
+  scratch.innovations.resize(slots_.size());
+  for (std::size_t j = 0; j < slots_.size(); ++j)
   {
     std::int32_t& slot = followed[tracks_.place(j)];
     if (tracks_.hits(j) == 1) slot = kNew;
     Innovation& o = scratch.innovations[j];
     const maps::Landmark* m = slot >= 0 ? map.find(static_cast<std::uint32_t>(slot)) : nullptr;
-    if (!m || !innovateLandmark(eye, j, static_cast<std::uint32_t>(slot), *m, o)) continue;
+    if (!m ||
+        !innovateLandmark(eye, j, *m, &poseCov, o, slots_.noise(static_cast<std::uint32_t>(slot))))
+      continue;
     const Innovation now = withPose(o, poseCov);
     if (now.d2 <= settings_.gates.outer)
       scratch.candidates.push_back(
@@ -80,7 +82,7 @@ PoseUpdate LandmarkScan::continueTracks(const maps::LandmarkMap& map, const Eye&
   matchGreedily(scratch.candidates, matches);
   PoseUpdate update;
   scratch.open.clear();
-  for (std::size_t j = 0; j < rays_.size(); ++j)
+  for (std::size_t j = 0; j < slots_.size(); ++j)
     if (matches[j] >= 0)
       update.add(scratch.innovations[j]);
     else
@@ -116,7 +118,7 @@ double LandmarkScan::matchTracks(const maps::LandmarkMap& map, const Eye& eye, c
                                  TrackScratch& scratch, std::vector<std::int32_t>& matches) const
 {
   followed.resize(tracks_.capacity(), kNew);
-  matches.resize(rays_.size());
+  matches.resize(slots_.size());
   PoseUpdate update = continueTracks(map, eye, root, followed, scratch, matches);
   double logGain = 0;
   while (!scratch.open.empty())
@@ -127,7 +129,7 @@ double LandmarkScan::matchTracks(const maps::LandmarkMap& map, const Eye& eye, c
     const Choice& choice = draw(scratch.chosen, total, random);
     matches[j] = choice.what;
     followed[tracks_.place(j)] =
-        choice.what >= 0 ? choice.what : static_cast<std::int32_t>(newSlots_[j]);
+        choice.what >= 0 ? choice.what : static_cast<std::int32_t>(slots_.newSlot(j));
     logGain += total - choice.logLikelihood;
     if (choice.what >= 0) update.add(choice.innovation);
     scratch.open.erase(next);

@@ -153,7 +153,7 @@ core::Fusion EngineOf<Motion>::fuse(const core::Evidence& evidence,
   if (options.rule == core::FusionRule::kNone) return {};
   try
   {
-    if (settings_.informed && !placed_)
+    if (settings_.isInformed() && !placed_)
       throw std::domain_error("it comes before the robot's first scan");
     const std::optional<std::size_t> track = trackWith(evidence.target);
     const core::RobotAndTarget own = robotAndTarget(track ? evidence.target : core::kNoId);

@@ -16,8 +16,9 @@ struct Landmark
 {
   double x = 0, y = 0;               ///< [m]
   double cxx = 0, cxy = 0, cyy = 0;  ///< [m²]
-  std::int32_t sightings = 0;
-  float existence = 0;  ///< log odds that it exists
+  std::uint32_t sightings : 31;      ///< make landmarks by {}: C++17 gives bit fields no default
+  std::uint32_t confirmed : 1;       ///< in an intensity: a feature, not only a component
+  float existence = 0;               ///< log odds that it exists; in an intensity: expected number
 
   [[nodiscard]] Point2D point() const { return {x, y}; }
   [[nodiscard]] Matrix2 cov() const
