@@ -76,7 +76,8 @@ void scan(benchmark::State& state, const char* name)
   for (auto _ : state)
   {
     state.PauseTiming();
-    const core::Step step = lattice.scanAt(0.5 * lattice.size() + 3, 0.5 * lattice.size() + 8, 0.02);
+    const core::Step step =
+        lattice.scanAt(0.5 * lattice.size() + 3, 0.5 * lattice.size() + 8, 0.02);
     sightings += static_cast<double>(step.landmarks->sightings.size());
     state.ResumeTiming();
     benchmark::DoNotOptimize(filter->process(step));
@@ -90,6 +91,7 @@ void scan(benchmark::State& state, const char* name)
 class Summary : public benchmark::ConsoleReporter
 {
  public:
+  Summary() : ConsoleReporter(OO_Tabular) {}  // no colour codes in a log
   void ReportRuns(const std::vector<Run>& runs) override
   {
     ConsoleReporter::ReportRuns(runs);
@@ -107,9 +109,10 @@ class Summary : public benchmark::ConsoleReporter
         return us_[std::string(name) + "/landmarks:" + std::to_string(landmarks) +
                    "/particles:" + std::to_string(particles)];
       };
-      std::printf("%s: %.2f us a particle and scan; 10 000 landmarks / 100: %.2f; a particle of 1000"
-                  " / of 100: %.2f\n",
-                  name, us(100, 100), us(10000, 100) / us(100, 100), us(100, 1000) / us(100, 100));
+      std::printf(
+          "%s: %.2f us a particle and scan; 10 000 landmarks / 100: %.2f; a particle of 1000"
+          " / of 100: %.2f\n",
+          name, us(100, 100), us(10000, 100) / us(100, 100), us(100, 1000) / us(100, 100));
     }
   }
 
@@ -126,7 +129,8 @@ int main(int argc, char** argv)
         ->Args({100, 100})
         ->Args({100, 1000})
         ->Args({10000, 100})
-        ->Repetitions(7)
+        ->Iterations(30)
+        ->Repetitions(5)
         ->ReportAggregatesOnly();
   benchmark::Initialize(&argc, argv);
   Summary summary;
