@@ -1,7 +1,7 @@
 #pragma once
 
 #include <slamot/math/random.h>
-#include <slamot/sim/Motion.h>
+#include <slamot/sim/Scenario.h>
 
 namespace slamot::sim
 {
@@ -20,12 +20,27 @@ class AcceleratedPoint
   /// Starts with the motion's speed in the start's direction, without acceleration.
   AcceleratedPoint(const Motion& motion, const Pose2D& start);
 
-  void move(double dt, math::RandomStream& random);
+  /// Coordinates of its state: place (x, y) [m]; x and x' of its pace [m/s, m/s²]; y and y' of its
+  /// turn [rad, rad/s].
+  static constexpr int kSize = 6;
+  /// How small errors of the state go on over a move: to F e + w, w of covariance Q.
+  struct Linear
+  {
+    Eigen::Matrix<double, kSize, kSize> F = Eigen::Matrix<double, kSize, kSize>::Identity();
+    Eigen::Matrix<double, kSize, kSize> Q = Eigen::Matrix<double, kSize, kSize>::Zero();
+  };
+
+  /// \param linear the move's, about the motion drawn; not if null.
+  void move(double dt, math::RandomStream& random, Linear* linear = nullptr);
   /// Where it is, and the direction it moves in.
   [[nodiscard]] Pose2D pose() const { return {at_.x, at_.y, direction()}; }
 
   /// The faster of the two springs' rates f [rad/s].
   [[nodiscard]] static double springRate(const Motion& motion);
+
+  /// What is known of its state at the start by what a filter is told: deviations in the state's
+  /// order.  What is not told is as uncertain as in the long run.
+  [[nodiscard]] Eigen::Matrix<double, kSize, 1> startStd(const StartKnowledge& knowledge) const;
 
  private:
   struct Spring
@@ -35,12 +50,22 @@ class AcceleratedPoint
     void move(double h, double normal);
     /// x, bent into (-limit, limit).
     [[nodiscard]] double value() const { return limit * std::tanh(x / limit); }
+    /// Its derivative by x.
+    [[nodiscard]] double slope() const { return 1 - std::pow(value() / limit, 2); }
+    /// Derivative of (x, speed) after a move by h, by those before; and by the deviate.
+    [[nodiscard]] Matrix2 transition(double h) const;
+    [[nodiscard]] Vector2 gain(double h) const;
+    /// Standard deviations of x and speed in the long run.
+    [[nodiscard]] Vector2 longRun() const { return {limit / 3, rate * limit / 3}; }
 
     double noise, limit, rate;
     double x = 0, speed = 0;
   };
+  /// By a part of a move, after it; with the velocity's derivative before it.
+  void extend(Linear& linear, double h, const Eigen::Matrix<double, 2, kSize>& before) const;
   [[nodiscard]] double direction() const { return math::wrapToPi(start_.phi + turn_.value()); }
   [[nodiscard]] Vector2 velocity() const;
+  [[nodiscard]] Eigen::Matrix<double, 2, kSize> velocityJacobian() const;
 
   double speed0_;
   Pose2D start_;

@@ -4,7 +4,8 @@
 
 namespace slamot::sim
 {
-Bodies::Bodies(const Scenario& scenario, std::uint64_t seed) : scenario_(scenario), seed_(seed)
+Bodies::Bodies(const Scenario& scenario, std::uint64_t seed, bool linearise)
+    : scenario_(scenario), seed_(seed), linearise_(linearise)
 {
   const auto poses = placeTargets(scenario, seed);
   for (int i = 0; i < static_cast<int>(scenario.robots.size()); ++i)
@@ -16,7 +17,8 @@ Bodies::Bodies(const Scenario& scenario, std::uint64_t seed) : scenario_(scenari
 
 Bodies::Body Bodies::makeBody(const Motion& motion, const Pose2D& pose, std::uint64_t key) const
 {
-  Body out{pose, {motion, scenario_.area, stream(seed_, Purpose::kManoeuvre, 0, key)}, {}};
+  Body out{pose, {motion, scenario_.area, stream(seed_, Purpose::kManoeuvre, 0, key)}, {}, {}, {},
+           {}};
   if (motion.kind == Motion::Kind::kAccelerated) out.point.emplace(motion, pose);
   return out;
 }
@@ -70,15 +72,44 @@ void Bodies::drive(Body& body, const Command& c, const Motion& m, std::uint64_t 
   executed.v += m.vStd * random.normal();
   executed.turn +=
       (m.drive == Motion::Drive::kSteering ? m.steerStd : m.omegaStd) * random.normal();
-  body.pose = math::compose(body.pose, increment(m, executed, scenario_.dt).mean);
+  body.before = body.pose;
+  body.executed = increment(m, executed, scenario_.dt);
+  body.pose = math::compose(body.pose, body.executed.mean);
 }
 
 void Bodies::moveTarget(Body& body, const Motion& m, std::uint64_t key) const
 {
   if (!body.point) return drive(body, body.driver.next(body.pose, elapsed()), m, key);
   auto random = stream(seed_, Purpose::kMotion, static_cast<std::uint64_t>(step_), key);
-  body.point->move(scenario_.dt, random);
+  body.linear = {};
+  body.point->move(scenario_.dt, random, linearise_ ? &body.linear : nullptr);
   body.pose = body.point->pose();
+}
+
+Transition Bodies::transition(const Body& body)
+{
+  if (body.point) return {body.linear.F, body.linear.Q};
+  Matrix3 F = Matrix3::Identity();
+  F(0, 2) = -(body.pose.y - body.before.y);
+  F(1, 2) = body.pose.x - body.before.x;
+  const Matrix3 R = math::poseRotation(body.before.phi);
+  return {F, R * body.executed.cov * R.transpose()};
+}
+
+Transition Bodies::robotTransition(int index) const
+{
+  return transition(robots_[std::size_t(index)]);
+}
+
+Transition Bodies::targetTransition(int id) const
+{
+  return transition(targets_.at(id));
+}
+
+const AcceleratedPoint* Bodies::point(int id) const
+{
+  const auto& point = targets_.at(id).point;
+  return point ? &*point : nullptr;
 }
 
 std::vector<Gaussian<Pose2D>> Bodies::move()

@@ -8,11 +8,18 @@
 
 namespace slamot::sim
 {
+/// How small errors of a state go on over a step: to F e + w, w of covariance Q.
+struct Transition
+{
+  Eigen::MatrixXd F, Q;
+};
+
 /// The robots and their targets, as they truly move.
 class Bodies
 {
  public:
-  Bodies(const Scenario& scenario, std::uint64_t seed);
+  /// \param linearise whether transitions are asked for.
+  Bodies(const Scenario& scenario, std::uint64_t seed, bool linearise = false);
 
   /// All by one step.  Returns what each robot knows of its own: the command, and the noise that
   /// driving adds to it.
@@ -25,6 +32,13 @@ class Bodies
   /// All robots but this one, by their index.
   [[nodiscard]] std::map<int, Point2D> matesOf(int robot) const;
 
+  /// The last step's, about the true motion, given the command.  A state is a pose, or that of an
+  /// AcceleratedPoint.
+  [[nodiscard]] Transition robotTransition(int index) const;
+  [[nodiscard]] Transition targetTransition(int id) const;
+  /// Null of a target that is driven.
+  [[nodiscard]] const AcceleratedPoint* point(int id) const;
+
   /// What a robot's filter is told, without the time.
   [[nodiscard]] core::Starts starts(int robot) const;
 
@@ -34,14 +48,20 @@ class Bodies
     Pose2D pose;
     Driver driver;
     std::optional<AcceleratedPoint> point;  // moves by itself instead of being driven
+    // The last step: from where, and what it did there.
+    Pose2D before;
+    Gaussian<Pose2D> executed;
+    AcceleratedPoint::Linear linear;
   };
   [[nodiscard]] Body makeBody(const Motion& motion, const Pose2D& pose, std::uint64_t key) const;
   [[nodiscard]] Command robotCommand(std::size_t robot);
   void drive(Body& body, const Command& c, const Motion& m, std::uint64_t key) const;
   void moveTarget(Body& body, const Motion& m, std::uint64_t key) const;
+  [[nodiscard]] static Transition transition(const Body& body);
 
   Scenario scenario_;
   std::uint64_t seed_;
+  bool linearise_;
   int step_ = 0;
   std::vector<Body> robots_;
   std::map<int, Body> targets_;

@@ -38,6 +38,14 @@ bool usable(const SensorSetup& sensor, const core::FieldOfView& fov, const Seen&
   return seen.range > 0 && fov.contains(seen.range, seen.bearing);
 }
 
+core::FieldOfView blobView(const Scenario& scenario)
+{
+  const core::FieldOfView& a = scenario.targetSensor->fov;
+  const core::FieldOfView& b = scenario.mateSensor ? scenario.mateSensor->fov : a;
+  return {std::min(a.rangeMin, b.rangeMin), std::max(a.rangeMax, b.rangeMax),
+          std::min(a.bearingMin, b.bearingMin), std::max(a.bearingMax, b.bearingMax)};
+}
+
 core::Sighting toSighting(const SensorSetup& sensor, const Seen& seen)
 {
   return {seen.range, seen.bearing, sensor.rangeStd, sensor.bearingStd,

@@ -31,6 +31,9 @@ struct ScanKeys
 [[nodiscard]] bool usable(const SensorSetup& sensor, const core::FieldOfView& fov,
                           const Seen& seen);
 
+/// Of a scan for blobs: the hull of the views of all sensors for them.
+[[nodiscard]] core::FieldOfView blobView(const Scenario& scenario);
+
 /// As the sensor reports it.
 [[nodiscard]] core::Sighting toSighting(const SensorSetup& sensor, const Seen& seen);
 [[nodiscard]] core::Blob toBlob(const SensorSetup& sensor, const Seen& seen,

@@ -10,15 +10,6 @@
 
 namespace slamot::sim
 {
-namespace
-{
-core::FieldOfView hullOf(const core::FieldOfView& a, const core::FieldOfView& b)
-{
-  return {std::min(a.rangeMin, b.rangeMin), std::max(a.rangeMax, b.rangeMax),
-          std::min(a.bearingMin, b.bearingMin), std::max(a.bearingMax, b.bearingMax)};
-}
-}  // namespace
-
 struct World::Impl
 {
   Impl(const Scenario& s, std::uint64_t seedGiven, bool rawSightings, int robotIndex);
@@ -37,7 +28,6 @@ struct World::Impl
         {seed, sensing, clutter, static_cast<std::uint64_t>(bodies.step()), robotKey(robot)});
   }
   void scanLandmarks(core::Step& out);
-  [[nodiscard]] core::FieldOfView blobView() const;
   void addBlob(core::Step& out, const SensorSetup& sensor, const Seen& seen,
                const std::string& label) const;
   void scanTargets(core::Step& out) const;
@@ -91,12 +81,6 @@ void World::Impl::scanLandmarks(core::Step& out)
   }
 }
 
-core::FieldOfView World::Impl::blobView() const
-{
-  const core::FieldOfView& own = scenario.targetSensor->fov;
-  return scenario.mateSensor ? hullOf(own, scenario.mateSensor->fov) : own;
-}
-
 void World::Impl::addBlob(core::Step& out, const SensorSetup& sensor, const Seen& seen,
                           const std::string& label) const
 {
@@ -132,7 +116,7 @@ void World::Impl::scanMates(core::Step& out) const
 void World::Impl::scanBlobs(core::Step& out) const
 {
   if (!scenario.targetSensor) return;
-  out.blobs.emplace().fov = blobView();
+  out.blobs.emplace().fov = blobView(scenario);
   scanTargets(out);
   if (scenario.mateSensor) scanMates(out);
 }

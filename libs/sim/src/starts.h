@@ -7,6 +7,9 @@
 
 namespace slamot::sim
 {
+/// Standard deviation of a place that nobody tells [m].
+inline constexpr double kUnknownPlace = 1e3;
+
 /// Where everything is at the start; equal seeds place landmark n alike whatever their number.
 /// \throws core::Error (kConfig) if the landmarks' keys, or the robot's distance from its
 /// target, leave no place in the area.

@@ -1,0 +1,105 @@
+#include <slamot/models/RangeBearing.h>
+
+#include <Eigen/LU>
+
+#include "BoundRecursion.h"
+
+namespace slamot::sim
+{
+using models::RangeBearing;
+
+void BoundRecursion::scan(int robot)
+{
+  Rows rows;
+  const std::vector<int> fresh = scanLandmarks(robot, rows);
+  if (scenario_.targetSensor) scanTargets(robot, rows);
+  if (scenario_.mateSensor && robots_.size() > 1) scanMates(robot, rows);
+  covariance_.observe(rows);
+  for (const int id : fresh) addLandmark(robot, id);
+}
+
+ScanKeys BoundRecursion::keys(int robot, Purpose sensing, Purpose clutter) const
+{
+  return {seed_, sensing, clutter, static_cast<std::uint64_t>(bodies_.step()), robotKey(robot)};
+}
+
+// Whether filters are given it, and it has derivatives.
+bool BoundRecursion::counts(int robot, const SensorSetup& sensor, const core::FieldOfView& fov,
+                            const Seen& seen, const std::map<int, Point2D>& objects) const
+{
+  return seen.object != core::kNoId && usable(sensor, fov, seen) &&
+         RangeBearing::predict(bodies_.robot(robot), objects.at(seen.object))[0] >=
+             RangeBearing::kSmallestRange;
+}
+
+/// \return those seen for the first time.
+std::vector<int> BoundRecursion::scanLandmarks(int robot, Rows& rows) const
+{
+  const SensorSetup& sensor = scenario_.landmarkSensor;
+  std::vector<int> fresh;
+  for (const Seen& seen : sense(sensor, bodies_.robot(robot), landmarks_,
+                                keys(robot, Purpose::kLandmarkSensing, Purpose::kLandmarkClutter)))
+  {
+    if (!counts(robot, sensor, sensor.fov, seen, landmarks_)) continue;
+    const auto known = landmarkAt_.find(seen.object);
+    if (known == landmarkAt_.end())
+      fresh.push_back(seen.object);
+    else
+      rows.push_back(row(robot, sensor, landmarks_.at(seen.object), known->second));
+  }
+  return fresh;
+}
+
+void BoundRecursion::scanTargets(int robot, Rows& rows)
+{
+  const SensorSetup& sensor = *scenario_.targetSensor;
+  std::map<int, Point2D> places;
+  for (const auto& [id, pose] : bodies_.presentTargets()) places[id] = {pose.x, pose.y};
+  for (const Seen& seen : sense(sensor, bodies_.robot(robot), places,
+                                keys(robot, Purpose::kTargetSensing, Purpose::kTargetClutter)))
+  {
+    if (!counts(robot, sensor, blobView(scenario_), seen, places)) continue;
+    Target& target = targets_.at(seen.object);
+    rows.push_back(row(robot, sensor, places.at(seen.object), target.at));
+    target.begun = true;
+  }
+}
+
+void BoundRecursion::scanMates(int robot, Rows& rows) const
+{
+  const SensorSetup& sensor = *scenario_.mateSensor;
+  const auto mates = bodies_.matesOf(robot);
+  for (const Seen& seen : sense(sensor, bodies_.robot(robot), mates,
+                                keys(robot, Purpose::kMateSensing, Purpose::kMateClutter)))
+  {
+    const auto mate = static_cast<std::size_t>(seen.object);
+    if (!counts(robot, sensor, blobView(scenario_), seen, mates) || mate >= robots_.size())
+      continue;
+    rows.push_back(row(robot, sensor, mates.at(seen.object), robots_[mate].at));
+  }
+}
+
+// A sighting of a point whose place has the coordinates from `at` on.
+JointCovariance::Row BoundRecursion::row(int robot, const SensorSetup& sensor, const Point2D& point,
+                                         int at) const
+{
+  const auto J = RangeBearing::jacobians(bodies_.robot(robot), point);
+  const int first = sensor.bearingOnly ? 1 : 0, count = 2 - first;
+  const Vector2 variance(sensor.rangeStd * sensor.rangeStd, sensor.bearingStd * sensor.bearingStd);
+  return {{{robots_[std::size_t(robot)].at, J.pose.middleRows(first, count)},
+           {at, J.point.middleRows(first, count)}},
+          variance.segment(first, count)};
+}
+
+// Of one seen first nothing else is known: its error e is what H_point e + H_pose e_pose = noise
+// makes it.
+void BoundRecursion::addLandmark(int robot, int id)
+{
+  const SensorSetup& sensor = scenario_.landmarkSensor;
+  const auto J = RangeBearing::jacobians(bodies_.robot(robot), landmarks_.at(id));
+  const Matrix2 inverse = J.point.inverse();
+  const Matrix2 R = RangeBearing(sensor.rangeStd, sensor.bearingStd).noise();
+  landmarkAt_[id] = covariance_.addFrom({{robots_[std::size_t(robot)].at, -inverse * J.pose}},
+                                        inverse * R * inverse.transpose());
+}
+}  // namespace slamot::sim

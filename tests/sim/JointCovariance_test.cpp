@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+#include <slamot/math/gaussian.h>
+#include <slamot/math/random.h>
+
+#include <Eigen/LU>
+
+#include "JointCovariance.h"
+
+namespace slamot::sim
+{
+namespace
+{
+using Matrix = Eigen::MatrixXd;
+
+Matrix randomMatrix(math::RandomStream& random, int rows, int columns)
+{
+  Matrix out(rows, columns);
+  for (double& v : out.reshaped()) v = random.normal();
+  return out;
+}
+
+Matrix randomCovariance(math::RandomStream& random, int n)
+{
+  const Matrix L = randomMatrix(random, n, n);
+  return L * L.transpose() + 0.1 * Matrix::Identity(n, n);
+}
+
+/// The information about all states at all times, from what is said of each.
+class Batch
+{
+ public:
+  explicit Batch(int size) : information_(Matrix::Zero(size, size)) {}
+
+  /// A sum of jacobian times part, seen with a noise.
+  void say(const std::vector<JointCovariance::Part>& parts, const Matrix& noise)
+  {
+    Matrix H = Matrix::Zero(noise.rows(), information_.rows());
+    for (const auto& p : parts) H.middleCols(p.at, p.jacobian.cols()) += p.jacobian;
+    information_ += H.transpose() * noise.inverse() * H;
+  }
+  [[nodiscard]] Matrix covariance() const { return information_.inverse(); }
+
+ private:
+  Matrix information_;
+};
+}  // namespace
+
+// Pose, move, landmark seen first, seen again, all with the matrices of no special kind: what is
+// left of the recursion must be what the inverse of the whole information says.
+TEST(JointCovariance, OfTwoStepsAndALandmarkIsTheInverseOfTheWholeInformation)
+{
+  math::RandomStream random{1};
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    const Matrix P0 = randomCovariance(random, 3), Q = randomCovariance(random, 3);
+    const Matrix F = randomMatrix(random, 3, 3), I3 = Matrix::Identity(3, 3);
+    const Matrix Hx = randomMatrix(random, 2, 3), Hm = randomMatrix(random, 2, 2);
+    const Matrix Gx = randomMatrix(random, 2, 3), Gm = randomMatrix(random, 2, 2);
+    const Eigen::Vector2d r0(0.3, 0.7), r1(0.2, 0.5);
+    const Matrix R0 = r0.asDiagonal(), R1 = r1.asDiagonal();
+
+    JointCovariance recursion;
+    const int pose = recursion.add(P0);
+    const Matrix inverse = Hm.inverse();
+    const int landmark =
+        recursion.addFrom({{pose, -inverse * Hx}}, inverse * R0 * inverse.transpose());
+    recursion.move(pose, F, Q);
+    recursion.observe({{{{pose, Gx}, {landmark, Gm}}, r1}});
+
+    Batch batch(8);  // pose at 0, pose at 1, landmark
+    batch.say({{0, I3}}, P0);
+    batch.say({{0, Hx}, {6, Hm}}, R0);
+    batch.say({{3, I3}, {0, -F}}, Q);
+    batch.say({{3, Gx}, {6, Gm}}, R1);
+    const Matrix expected = batch.covariance();
+    const double scale = expected.cwiseAbs().maxCoeff();
+    EXPECT_LT((recursion.block(pose, 3) - expected.block(3, 3, 3, 3)).norm(), 1e-10 * scale);
+    EXPECT_LT((recursion.block(landmark, 2) - expected.block(6, 6, 2, 2)).norm(), 1e-10 * scale);
+  }
+}
+
+// Many states of other sizes, moved and seen in a mixed order, against plain dense formulas.
+TEST(JointCovariance, EqualsTheDenseFormulas)
+{
+  math::RandomStream random{2};
+  JointCovariance recursion;
+  Matrix dense(0, 0);
+  std::vector<std::pair<int, int>> states;  // first coordinate, size
+  const auto grow = [&](const Matrix& cross, const Matrix& own)
+  {
+    const Eigen::Index n = dense.rows(), k = own.rows();
+    dense.conservativeResize(n + k, n + k);
+    dense.bottomLeftCorner(k, n) = cross;
+    dense.topRightCorner(n, k) = cross.transpose();
+    dense.bottomRightCorner(k, k) = own;
+  };
+  for (int i = 0; i < 60; ++i)
+  {
+    const auto pick = [&]
+    { return states[static_cast<std::size_t>(random.uniform(0, double(states.size())))]; };
+    const int size = 2 + i % 5, kind = states.size() < 3 ? 0 : i % 4;
+    if (kind == 0)
+    {
+      const Matrix P = randomCovariance(random, size);
+      states.emplace_back(recursion.add(P), size);
+      grow(Matrix::Zero(size, dense.rows()), P);
+    }
+    else if (kind == 1)
+    {
+      const auto [at, n] = pick();
+      const Matrix J = randomMatrix(random, 2, n), R = randomCovariance(random, 2);
+      states.emplace_back(recursion.addFrom({{at, J}}, R), 2);
+      const Matrix cross = J * dense.middleRows(at, n);
+      grow(cross, cross.middleCols(at, n) * J.transpose() + R);
+    }
+    else if (kind == 2)
+    {
+      const auto [at, n] = pick();
+      const Matrix F = randomMatrix(random, n, n), Q = randomCovariance(random, n);
+      recursion.move(at, F, Q);
+      Matrix all = Matrix::Identity(dense.rows(), dense.rows());
+      all.block(at, at, n, n) = F;
+      dense = (all * dense * all.transpose()).eval();
+      dense.block(at, at, n, n) += Q;
+    }
+    else
+    {
+      const auto a = states[0], b = states[states.size() - 1], c = states[states.size() / 2];
+      const Matrix Ja = randomMatrix(random, 2, a.second), Jb = randomMatrix(random, 2, b.second);
+      const Matrix Jc = randomMatrix(random, 1, c.second);
+      const Eigen::Vector2d r(0.5, 2);
+      recursion.observe({{{{a.first, Ja}, {b.first, Jb}}, r},
+                         {{{c.first, Jc}}, Eigen::VectorXd::Constant(1, 0.3)}});
+      Matrix H = Matrix::Zero(3, dense.rows());
+      H.block(0, a.first, 2, a.second) = Ja;
+      H.block(0, b.first, 2, b.second) += Jb;
+      H.block(2, c.first, 1, c.second) = Jc;
+      const Matrix S =
+          H * dense * H.transpose() + Matrix(Eigen::Vector3d(0.5, 2, 0.3).asDiagonal());
+      dense = (dense - dense * H.transpose() * S.inverse() * H * dense).eval();
+    }
+    const double scale = dense.cwiseAbs().maxCoeff();
+    for (const auto& [at, n] : states)
+      EXPECT_LT((recursion.block(at, n) - dense.block(at, at, n, n)).norm(), 1e-9 * scale) << i;
+  }
+  EXPECT_EQ(recursion.size(), dense.rows());
+}
+
+TEST(JointCovariance, AKnownLandmarkAddsTheInformationOfItsSighting)
+{
+  const Matrix P = Vector3(0.04, 0.09, 0.01).asDiagonal();
+  Matrix J(2, 3);
+  J << -0.6, -0.8, 0, 0.16, -0.12, -1;
+  const Eigen::Vector2d r(0.01, 0.0004);
+  JointCovariance recursion;
+  const int pose = recursion.add(P), landmark = recursion.add(Matrix::Zero(2, 2));
+  recursion.observe({{{{pose, J}, {landmark, -J.leftCols(2)}}, r}});
+  const Matrix R = r.asDiagonal();
+  const Matrix expected = (P.inverse() + J.transpose() * R.inverse() * J).inverse();
+  EXPECT_LT((recursion.block(pose, 3) - expected).norm(), 1e-14);
+  EXPECT_EQ(recursion.block(landmark, 2).norm(), 0);
+}
+}  // namespace slamot::sim
