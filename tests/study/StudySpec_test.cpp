@@ -1,5 +1,6 @@
 #include <slamot/core/Error.h>
 #include <slamot/filters/registerAll.h>
+#include <slamot/study/Trial.h>
 
 #include "tinyStudy.h"
 
@@ -49,6 +50,8 @@ TEST(StudySpec, WrongValuesAreOneLineThatNamesTheKey)
   expectError("vary.landmarks.keys=wrold.landmarks", "a section [wrold]");
   expectError("vary.landmarks.keys=landmarks", "'landmarks' is no Section.key");
   expectError("vary.landmarks.values=few, many", "[plot.errors] x: the values of landmarks");
+  expectError("vary.landmarks.value_labels=few", "value_labels: are not as many as values");
+  expectError("study.gospa_cutoff_m=0", "study.ini [study] gospa_cutoff_m: 0 is out of range");
   expectError("published.paper.robot_maen_m=1", "[published.paper] robot_maen_m: unknown key");
   expectError("method.jiont.config=x.ini", "[method.jiont]: unknown section");
   expectError("method.joint.config=none.ini", "none.ini can't be read");
@@ -75,6 +78,42 @@ TEST(StudySpec, MethodsThatAnAxisDoesNotTouchShareTheirRuns)
   EXPECT_EQ(plan.groupOf[0][1], plan.groupOf[1][1]);
   EXPECT_NE(plan.groupOf[0][0], plan.groupOf[1][0]);
   EXPECT_EQ(plan.runs.size(), 12u);
+}
+
+const std::vector<std::string> kWordByWord = {
+    "vary.landmarks.keys=world.landmarks, robot.v_std_mps, rbpf-slamot.particles",
+    "vary.landmarks.values=3 0.1 4, 8 0.3 7", "vary.landmarks.value_labels=few, many"};
+
+std::string withoutPlot()
+{
+  std::string text = TinyStudy::kStudy;
+  return text.erase(text.find("[plot.errors]"),
+                    std::string("[plot.errors]\ny = robot_mean_m\n").size());
+}
+
+TEST(StudySpec, AnAxisMaySetEachKeyToAWordOfItsOwn)
+{
+  filters::registerAll();
+  const TinyStudy study(withoutPlot());
+  const Plan plan = study.plan(kWordByWord);
+  ASSERT_EQ(plan.cells.size(), 2u);
+  EXPECT_EQ(plan.cellValues(plan.cells[1]), std::vector<std::string>{"many"});
+  const Trial trial = openTrial(plan.spec, plan.cells[1], plan.spec.methods[0], 1);
+  for (const char* setting : {"landmarks = 8\n", "v_std_mps = 0.3\n", "particles = 7\n"})
+    EXPECT_NE(trial.effective.find(setting), std::string::npos) << setting << trial.effective;
+  EXPECT_NE(trial.effective.find("v_std_mps = 0.2\n"), std::string::npos) << "the target's";
+}
+
+TEST(StudySpec, AWordForEachKeyIsAWordForEachKey)
+{
+  filters::registerAll();
+  const TinyStudy study(withoutPlot());
+  auto set = kWordByWord;
+  set[1] = "vary.landmarks.values=3 0.1 4, 8 0.3";
+  EXPECT_NE(errorOf(study, set)
+                .find("[vary.landmarks] values: '8 0.3' has not one word for each of "
+                      "the keys; write 3 of them"),
+            std::string::npos);
 }
 
 TEST(StudySpec, SavedSpecRepeatsTheStudy)

@@ -11,7 +11,7 @@ const std::vector<MetricEntry>& entries()
   static const std::vector<MetricEntry> list = []
   {
     std::vector<MetricEntry> out;
-    for (auto* part : {robotMetrics, targetMetrics, mapMetrics, messageMetrics})
+    for (auto* part : {robotMetrics, targetMetrics, mapMetrics, boundMetrics, messageMetrics})
       for (MetricEntry& e : part()) out.push_back(std::move(e));
     return out;
   }();
@@ -41,10 +41,12 @@ std::optional<std::size_t> metricByName(const std::string& name)
 
 std::vector<std::optional<double>> measure(const eval::Record& record,
                                            const eval::Evaluation& evaluation,
-                                           const MessageFigures* messages)
+                                           const MessageFigures* messages,
+                                           const BoundFigures* bound)
 {
   std::vector<std::optional<double>> out;
-  for (const MetricEntry& e : entries()) out.push_back(e.value({record, evaluation, messages}));
+  for (const MetricEntry& e : entries())
+    out.push_back(e.value({record, evaluation, messages, bound}));
   return out;
 }
 

@@ -1,8 +1,10 @@
 #include <slamot/study/Outcome.h>
 
 #include <slamot/core/Error.h>
+#include <slamot/study/Metrics.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace slamot::study
@@ -89,5 +91,56 @@ std::optional<math::MeanInterval> pairedRatio(const std::vector<std::optional<do
   math::MeanInterval out = math::meanInterval(residuals);
   out.mean = ratio;
   return out;
+}
+
+std::optional<math::MeanInterval> pairedRootRatio(const std::vector<std::optional<double>>& a,
+                                                  const std::vector<std::optional<double>>& b)
+{
+  std::vector<std::optional<double>> squaresA(a.size()), squaresB(a.size()), ratios(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    if (!a[i] || !b[i]) continue;
+    squaresA[i] = *a[i] * *a[i];
+    squaresB[i] = *b[i] * *b[i];
+    if (*b[i] != 0) ratios[i] = *a[i] / *b[i];
+  }
+  auto out = pairedRatio(squaresA, squaresB);
+  if (!out) return std::nullopt;
+  out->mean = std::sqrt(out->mean);
+  if (out->mean > 0) out->halfWidth95 /= 2 * out->mean;
+  out->std = statistics(ratios).std;
+  return out;
+}
+
+namespace
+{
+/// The numerator's values of the runs that have the ratio.
+std::vector<std::optional<double>> numerators(const Outcome& outcome, const Plan& plan,
+                                              std::size_t group, std::size_t metric)
+{
+  const auto ratios = outcome.values(plan, group, metric);
+  auto out = outcome.values(plan, group, *metricByName(metrics()[metric].numerator));
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (!ratios[i]) out[i].reset();
+  return out;
+}
+}  // namespace
+
+math::MeanInterval Outcome::summary(const Plan& plan, std::size_t group, std::size_t metric) const
+{
+  const Metric& m = metrics()[metric];
+  if (!m.numerator) return statistics(values(plan, group, metric));
+  const auto ratio = pairedRootRatio(numerators(*this, plan, group, metric),
+                                     values(plan, group, *metricByName(m.denominator)));
+  return ratio.value_or(math::MeanInterval{});
+}
+
+std::optional<math::MeanInterval> Outcome::ratio(const Plan& plan, std::size_t group,
+                                                 std::size_t reference, std::size_t metric) const
+{
+  if (!metrics()[metric].numerator)
+    return pairedRatio(values(plan, group, metric), values(plan, reference, metric));
+  return pairedRootRatio(numerators(*this, plan, group, metric),
+                         numerators(*this, plan, reference, metric));
 }
 }  // namespace slamot::study

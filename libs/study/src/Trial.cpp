@@ -7,6 +7,7 @@
 #include <slamot/results/RunPlan.h>
 #include <slamot/results/TruthFiles.h>
 #include <slamot/sim/World.h>
+#include <slamot/sim/posteriorBound.h>
 
 #include "hash.h"
 #include "tableText.h"
@@ -22,12 +23,13 @@ core::Config configOf(const ConfigFile& file, const StudySpec& spec, const Cell&
 {
   core::Config out = file.config();
   for (std::size_t a = 0; a < spec.axes.size(); ++a)
-    for (const std::string& key : spec.axes[a].keys)
+    for (std::size_t k = 0; k < spec.axes[a].keys.size(); ++k)
     {
+      const std::string& key = spec.axes[a].keys[k];
       const auto dot = key.find_last_of('.');
       const std::string section = key.substr(0, dot);
       if (out.has(section))
-        out.set(section, key.substr(dot + 1), spec.axes[a].values[cell.values[a]]);
+        out.set(section, key.substr(dot + 1), spec.axes[a].settings[cell.values[a]][k]);
     }
   return out;
 }
@@ -60,6 +62,25 @@ class ModelledWorld : public core::Source
   core::OdometryModel model_;
 };
 
+BoundFigures figuresOf(const sim::PosteriorBound& bound)
+{
+  BoundFigures out;
+  const auto mean = [](auto begin, auto end, auto value) -> std::optional<double>
+  {
+    double sum = 0;
+    for (auto it = begin; it != end; ++it) sum += value(*it);
+    if (begin == end) return std::nullopt;
+    return sum / static_cast<double>(std::distance(begin, end));
+  };
+  const auto& robots = bound.robots;
+  out.robotPosition = mean(robots.begin(), robots.end(), [](const auto& r) { return r.position; });
+  out.robotHeading = mean(robots.begin(), robots.end(), [](const auto& r) { return r.heading; });
+  out.map = bound.map;
+  out.target =
+      mean(bound.targets.begin(), bound.targets.end(), [](const auto& t) { return t.second; });
+  return out;
+}
+
 void openWorld(const StudySpec& spec, const Cell& cell, std::uint64_t seed, bool isTeam,
                const core::OdometryModel& odometry, Trial& trial)
 {
@@ -77,6 +98,15 @@ void openWorld(const StudySpec& spec, const Cell& cell, std::uint64_t seed, bool
     robot.source = std::move(world);
     trial.robots.push_back(std::move(robot));
   }
+  trial.world =
+      trial.effective + "seed = " + std::to_string(seed) + "\nrobots = " + std::to_string(robots);
+  if (!spec.bound) return;
+  trial.bound = [scenario, seed, robots]() -> std::optional<BoundFigures>
+  {
+    const auto bound = sim::posteriorBound(scenario, seed, static_cast<int>(robots));
+    if (!bound) return std::nullopt;
+    return figuresOf(*bound);
+  };
 }
 
 void openRawlog(const std::string& path, const RawlogSource::Options& options, Trial& trial)
@@ -90,11 +120,21 @@ void openRawlog(const std::string& path, const RawlogSource::Options& options, T
       {std::move(log), [truth]() -> const eval::Truth& { return *truth; }, starts});
 }
 
+/// Whether errors are those that the bound is of: in the map's frame, as the scenario tells it.
+bool isBoundComparable(const core::Config& config, const Trial& trial)
+{
+  const core::Starts& starts = trial.robots[0].starts;
+  const bool isExact = starts.robotPose().cov.isZero(0);
+  const eval::Align align = trial.evaluation.align;
+  return !config.has("start") && trial.evaluation.leverArm == Point2D() &&
+         (align == eval::Align::kNone || (align == eval::Align::kFirstPose && isExact));
+}
+
 /// How runs are judged, which their metrics depend on.
 std::string judging(const StudySpec& spec)
 {
   return "align = " + spec.align + "\ncutoffs = " + shortest(spec.landmarkCutoff) + ", " +
-         shortest(spec.gospaCutoff);
+         shortest(spec.gospaCutoff) + "\nbound = " + (spec.bound ? "true" : "false");
 }
 
 eval::Align alignOf(const std::string& name, const core::Starts& starts)
@@ -172,6 +212,7 @@ Trial openTrial(const StudySpec& spec, const Cell& cell, const Method& method, s
     makeFilter(config, seed, trial);
   config.requireAllRead(core::FilterRegistry::instance().names());
   trial.evaluation.align = alignOf(spec.align, trial.robots[0].starts);
+  if (!isBoundComparable(config, trial)) trial.bound = nullptr;
   trial.evaluation.landmarkCutoff = spec.landmarkCutoff;
   trial.evaluation.gospaCutoff = spec.gospaCutoff;
   trial.effective += config.effectiveText() + judging(spec);

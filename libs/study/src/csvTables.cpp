@@ -34,15 +34,14 @@ std::string tableCsv(const Plan& plan, const Outcome& outcome)
     for (std::size_t m = 0; m < plan.spec.methods.size(); ++m)
       for (std::size_t k = 0; k < metrics().size(); ++k)
       {
-        const auto values = outcome.values(plan, plan.groupOf[c][m], k);
-        const auto s = statistics(values);
+        const std::size_t group = plan.groupOf[c][m];
+        const auto s = outcome.summary(plan, group, k);
         if (s.count == 0) continue;
         auto row = rowHead(plan, c, m);
         row.insert(row.end(), {metrics()[k].name, std::to_string(s.count), shortest(s.mean),
                                shortest(s.std), shortest(s.halfWidth95)});
         std::optional<math::MeanInterval> ratio;
-        if (reference)
-          ratio = pairedRatio(values, outcome.values(plan, plan.groupOf[c][*reference], k));
+        if (reference) ratio = outcome.ratio(plan, group, plan.groupOf[c][*reference], k);
         row.push_back(ratio ? shortest(ratio->mean) : "");
         row.push_back(ratio ? shortest(ratio->halfWidth95) : "");
         out += csvLine(row);

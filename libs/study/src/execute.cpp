@@ -14,6 +14,8 @@
 #include <new>
 #include <thread>
 
+#include "BoundCache.h"
+
 namespace slamot::study
 {
 namespace
@@ -25,12 +27,42 @@ double threadCpuS()
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void measureRun(const Plan& plan, const Run& run, RunRecord& record)
+double wallS()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Adds what something takes to a record's times.
+class Stopwatch
+{
+ public:
+  explicit Stopwatch(RunRecord& record) : record_(record) {}
+  ~Stopwatch()
+  {
+    record_.cpuS += threadCpuS() - cpuS_;
+    record_.wallS += wallS() - wallS_;
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  RunRecord& record_;
+  double cpuS_ = threadCpuS(), wallS_ = wallS();
+};
+
+void measureRun(const Plan& plan, const Run& run, BoundCache& bounds, RunRecord& record)
 {
   const Group& group = plan.groups[run.group];
-  Trial trial =
-      openTrial(plan.spec, plan.cells[group.cell], plan.spec.methods[group.method], run.seed);
-  record.metrics = runTrial(trial);
+  const auto open = [&]
+  {
+    const Stopwatch watch(record);
+    return openTrial(plan.spec, plan.cells[group.cell], plan.spec.methods[group.method], run.seed);
+  };
+  Trial trial = open();
+  // The bound is not the method's: it is in no method's time.
+  const auto bound = bounds.of(trial);
+  const Stopwatch watch(record);
+  record.metrics = runTrial(trial, bound);
   for (std::size_t i = 0; i < record.metrics.size(); ++i)
     if (record.metrics[i] && !std::isfinite(*record.metrics[i]))
       throw core::Error(core::ExitStatus::kInternal, metrics()[i].name, "is not finite");
@@ -41,6 +73,30 @@ void fail(RunRecord& record, core::ExitStatus status, const std::string& why)
   record.metrics.clear();
   record.error = why;
   record.status = static_cast<int>(status);
+}
+
+RunRecord executeRun(const Plan& plan, const Run& run, BoundCache& bounds)
+{
+  RunRecord record;
+  record.hash = plan.groups[run.group].hash;
+  record.seed = run.seed;
+  try
+  {
+    measureRun(plan, run, bounds, record);
+  }
+  catch (const core::Error& e)
+  {
+    fail(record, e.status(), e.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    fail(record, core::ExitStatus::kLimit, "memory: exhausted");
+  }
+  catch (const std::exception& e)
+  {
+    fail(record, core::ExitStatus::kInternal, e.what());
+  }
+  return record;
 }
 
 /// The runs of a shard that are still to be done, seed by seed: what is there after an interruption
@@ -100,7 +156,7 @@ class Crew
       if (i >= runs_.size()) return;
       try
       {
-        const RunRecord record = executeRun(plan_, runs_[i]);
+        const RunRecord record = executeRun(plan_, runs_[i], bounds_);
         saveRecord(folder_, plan_, runs_[i], record);
         const std::lock_guard<std::mutex> lock(mutex_);
         ++done_;
@@ -121,6 +177,7 @@ class Crew
   const std::string& folder_;
   const ExecuteOptions& options_;
   std::vector<Run> runs_;
+  BoundCache bounds_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::size_t done_ = 0, failed_ = 0;
@@ -131,30 +188,8 @@ class Crew
 
 RunRecord executeRun(const Plan& plan, const Run& run)
 {
-  RunRecord record;
-  record.hash = plan.groups[run.group].hash;
-  record.seed = run.seed;
-  const auto start = std::chrono::steady_clock::now();
-  const double cpuAtStart = threadCpuS();
-  try
-  {
-    measureRun(plan, run, record);
-  }
-  catch (const core::Error& e)
-  {
-    fail(record, e.status(), e.what());
-  }
-  catch (const std::bad_alloc&)
-  {
-    fail(record, core::ExitStatus::kLimit, "memory: exhausted");
-  }
-  catch (const std::exception& e)
-  {
-    fail(record, core::ExitStatus::kInternal, e.what());
-  }
-  record.cpuS = threadCpuS() - cpuAtStart;
-  record.wallS = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return record;
+  BoundCache bounds;
+  return executeRun(plan, run, bounds);
 }
 
 ExecuteResult execute(const Plan& plan, const std::string& folder, const ExecuteOptions& options)

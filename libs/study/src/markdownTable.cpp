@@ -3,6 +3,7 @@
 #include <slamot/study/Metrics.h>
 #include <slamot/study/tables.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "specReading.h"
@@ -62,7 +63,7 @@ std::string preamble(const Plan& plan, const Outcome& outcome)
 
 std::string meanOf(const Plan& plan, const Outcome& outcome, std::size_t group, std::size_t metric)
 {
-  const auto s = statistics(outcome.values(plan, group, metric));
+  const auto s = outcome.summary(plan, group, metric);
   if (s.count == 0) return "-";
   const int d = metrics()[metric].decimals;
   if (s.count == 1) return fixed(s.mean, d);  // one run has no spread to tell
@@ -72,8 +73,7 @@ std::string meanOf(const Plan& plan, const Outcome& outcome, std::size_t group, 
 std::string ratioOf(const Plan& plan, const Outcome& outcome, std::size_t group,
                     std::size_t reference, std::size_t metric)
 {
-  const auto r =
-      pairedRatio(outcome.values(plan, group, metric), outcome.values(plan, reference, metric));
+  const auto r = outcome.ratio(plan, group, reference, metric);
   return r ? fixed(r->mean, kRatioDecimals) + " ± " + fixed(r->halfWidth95, kRatioDecimals) : "-";
 }
 
@@ -96,6 +96,11 @@ std::string publishedRows(const Plan& plan, const TableSpec& table)
   return out;
 }
 
+bool isOfMeanSquares(const std::string& name)
+{
+  return metrics()[*metricByName(name)].numerator != nullptr;
+}
+
 std::string tableOf(const Plan& plan, const Outcome& outcome, const TableSpec& table)
 {
   const StudySpec& spec = plan.spec;
@@ -105,6 +110,9 @@ std::string tableOf(const Plan& plan, const Outcome& outcome, const TableSpec& t
                             ", paired by seed, ± half width of its 95% interval.\n\n"
                       : "Mean over the runs ± half width of its 95% interval (standard deviation "
                         "over the runs).\n\n";
+  if (std::any_of(table.metrics.begin(), table.metrics.end(), isOfMeanSquares))
+    out +=
+        "Errors by a bound are roots of ratios of mean squares, which is what a bound is of.\n\n";
   out += markdownHead(head(plan, table.metrics));
   for (std::size_t c = 0; c < plan.cells.size(); ++c)
     for (std::size_t m = 0; m < spec.methods.size(); ++m)

@@ -15,6 +15,7 @@ struct Measured
   const eval::Record& record;
   const eval::Evaluation& evaluation;
   const MessageFigures* messages = nullptr;  ///< of a robot in a team
+  const BoundFigures* bound = nullptr;       ///< of a simulated world
 };
 
 struct MetricEntry
@@ -26,6 +27,7 @@ struct MetricEntry
 [[nodiscard]] std::vector<MetricEntry> robotMetrics();
 [[nodiscard]] std::vector<MetricEntry> targetMetrics();
 [[nodiscard]] std::vector<MetricEntry> mapMetrics();
+[[nodiscard]] std::vector<MetricEntry> boundMetrics();
 [[nodiscard]] std::vector<MetricEntry> messageMetrics();
 
 /// Mean of `value` over the steps that `use` takes.

@@ -64,7 +64,7 @@ std::vector<results::Series> curvesOf(const Plan& plan, const Outcome& outcome,
   for (std::size_t m = 0; m < plan.spec.methods.size(); ++m)
     for (std::size_t c = 0; c < plan.cells.size(); ++c)
     {
-      const auto s = statistics(outcome.values(plan, plan.groupOf[c][m], metric));
+      const auto s = outcome.summary(plan, plan.groupOf[c][m], metric);
       if (s.count == 0) continue;
       const std::string title = curveTitle(plan, plot, c, m);
       const auto [it, isNew] = places.emplace(title, curves.size());

@@ -24,7 +24,7 @@ MessageFigures figuresOf(const team::Team& team, std::size_t robot, const eval::
   return out;
 }
 
-Values runTeam(Trial& trial)
+Values runTeam(Trial& trial, const BoundFigures* bound)
 {
   team::Team& team = *trial.team;
   std::vector<std::unique_ptr<eval::Recorder>> recorders;
@@ -48,19 +48,21 @@ Values runTeam(Trial& trial)
   {
     MessageFigures figures;
     if (team.member(r)) figures = figuresOf(team, r, *runs[r].truth, truths);
-    robots.push_back(measure(*runs[r].record, evaluations[r], team.member(r) ? &figures : nullptr));
+    robots.push_back(
+        measure(*runs[r].record, evaluations[r], team.member(r) ? &figures : nullptr, bound));
   }
   return meanOf(robots);
 }
 }  // namespace
 
-Values runTrial(Trial& trial)
+Values runTrial(Trial& trial, const std::optional<BoundFigures>& known)
 {
-  if (trial.team) return runTeam(trial);
+  const BoundFigures* bound = known ? &*known : nullptr;
+  if (trial.team) return runTeam(trial, bound);
   eval::Recorder recorder(*trial.filter);
   core::run(*trial.robots[0].source, *trial.filter, {&recorder});
   const auto evaluation =
       eval::evaluate(recorder.record(), trial.robots[0].truth(), trial.evaluation);
-  return measure(recorder.record(), evaluation);
+  return measure(recorder.record(), evaluation, nullptr, bound);
 }
 }  // namespace slamot::study

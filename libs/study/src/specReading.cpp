@@ -88,6 +88,38 @@ Method readMethod(core::Config& study, const std::string& name, const std::files
   return out;
 }
 
+namespace
+{
+/// A value's words, one for each key; or the value for all keys.
+std::vector<std::string> settingsOf(core::Params& p, const std::string& value, std::size_t keys,
+                                    bool wordByWord)
+{
+  if (!wordByWord) return std::vector<std::string>(keys, value);
+  std::istringstream in(value);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  if (words.size() != keys)
+    p.fail("values", "'" + value + "' has not one word for each of the keys",
+           "write " + std::to_string(keys) + " of them, between blanks");
+  return words;
+}
+
+void readValues(core::Params& p, Axis& axis)
+{
+  axis.values = p.list("values");
+  const auto hasBlank = [](const std::string& v) { return v.find_first_of(" \t") < v.size(); };
+  const bool wordByWord =
+      axis.keys.size() > 1 && std::any_of(axis.values.begin(), axis.values.end(), hasBlank);
+  for (const std::string& value : axis.values)
+    axis.settings.push_back(settingsOf(p, value, axis.keys.size(), wordByWord));
+  if (!p.has("value_labels")) return;
+  const auto labels = p.list("value_labels");
+  if (labels.size() != axis.values.size())
+    p.fail("value_labels", "are not as many as values", "write one for each");
+  axis.values = labels;
+}
+}  // namespace
+
 Axis readAxis(core::Config& study, const std::string& name, const StudySpec& spec)
 {
   const std::string section = "vary." + name;
@@ -95,7 +127,8 @@ Axis readAxis(core::Config& study, const std::string& name, const StudySpec& spe
     core::Params(study, "study").fail("vary", "there is no [" + section + "]", "add it");
   core::Params p(study, section);
   checkName(p, "", name);
-  Axis out{name, p.text("label", name), p.list("keys"), p.list("values")};
+  Axis out{name, p.text("label", name), p.list("keys"), {}, {}};
+  readValues(p, out);
   for (const std::string& key : out.keys)
   {
     const std::string varied = splitKey(p, "keys", key).first;

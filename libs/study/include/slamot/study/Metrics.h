@@ -15,6 +15,11 @@ struct Metric
   const char* name;   ///< with its unit, as in columns of files
   const char* label;  ///< for tables and plots
   int decimals;       ///< that a table shows
+  /// Of a ratio of two other metrics, their names: over several runs it is the root of the ratio of
+  /// their mean squares.  A bound is one of mean squares; a mean of RMSEs is smaller, by what they
+  /// scatter.
+  const char* numerator = nullptr;
+  const char* denominator = nullptr;
 };
 
 /// All metrics, in the order of files.
@@ -32,11 +37,21 @@ struct MessageFigures
   std::optional<double> wrong;  ///< of these sightings, those that were not of this robot
 };
 
+/// The least root mean square errors that there can be in a run's world: see sim::PosteriorBound.
+/// Of robots and targets the mean over them, as their errors'.
+struct BoundFigures
+{
+  std::optional<double> robotPosition, robotHeading;  ///< [m, rad]
+  std::optional<double> map, target;                  ///< [m]
+};
+
 /// The metrics of a run, in the order of metrics(); absent is what has no truth or does not apply.
 /// \param messages of a robot in a team, else null
+/// \param bound of its world, null where there is none
 [[nodiscard]] std::vector<std::optional<double>> measure(const eval::Record& record,
                                                          const eval::Evaluation& evaluation,
-                                                         const MessageFigures* messages = nullptr);
+                                                         const MessageFigures* messages = nullptr,
+                                                         const BoundFigures* bound = nullptr);
 
 /// Each metric's mean over the robots of a team that have it.
 [[nodiscard]] std::vector<std::optional<double>> meanOf(

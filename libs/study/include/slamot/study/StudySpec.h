@@ -32,9 +32,11 @@ struct Method
 struct Axis
 {
   std::string name, label;
-  /// Section.key, each of the scenario or of methods: all are set to the same value.
+  /// Section.key, each of the scenario or of methods.
   std::vector<std::string> keys;
-  std::vector<std::string> values;
+  std::vector<std::string> values;  ///< as shown
+  /// What the keys are set to, by value and key: all to the same, or each to a word of its own.
+  std::vector<std::vector<std::string>> settings;
 };
 
 /// Metrics side by side; section [table.<name>].
@@ -77,6 +79,7 @@ struct StudySpec
   std::string align;              ///< auto | none | first-pose | rigid
   double landmarkCutoff = 1;      ///< see eval::EvaluationOptions [m]
   double gospaCutoff = 1;         ///< the same [m]
+  bool bound = true;              ///< if simulated: whether to compute each world's bound
   std::vector<TableSpec> tables;  ///< of the page, in the order of [study] tables
   std::vector<PlotSpec> plots;
   std::vector<Published> published;

@@ -2,6 +2,7 @@
 
 #include <slamot/core/run.h>
 #include <slamot/eval/Evaluation.h>
+#include <slamot/study/Metrics.h>
 #include <slamot/study/Plan.h>
 #include <slamot/team/Team.h>
 
@@ -25,6 +26,10 @@ struct Trial
   std::unique_ptr<team::Team> team;
   eval::EvaluationOptions evaluation;
   std::string effective;  ///< all that the result depends on, but seed and program
+  /// Which simulated world it is, the same for all methods; and its bound, null without one, or
+  /// where errors are taken otherwise than from the map's frame.
+  std::string world;
+  std::function<std::optional<BoundFigures>()> bound;
 };
 
 /// \throws core::Error: kConfig on a wrong scenario or method; else what is wrong with a rawlog.
@@ -32,5 +37,7 @@ struct Trial
                               std::uint64_t seed);
 
 /// Runs it to its end, and takes its metrics: of a team the means over its robots.
-[[nodiscard]] std::vector<std::optional<double>> runTrial(Trial& trial);
+/// \param bound of its world, if it is known
+[[nodiscard]] std::vector<std::optional<double>> runTrial(
+    Trial& trial, const std::optional<BoundFigures>& bound = {});
 }  // namespace slamot::study
