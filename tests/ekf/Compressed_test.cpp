@@ -165,7 +165,7 @@ static core::Evidence evidenceFor(const core::RobotAndTarget& own)
 
 /// Hundreds of metres among landmarks, with targets, births, many changes of what is local, and
 /// now and then a fusion.
-static void expectEqualDrives(const std::string& association)
+static void expectEqualDrives(const std::string& association, const std::string& more = "")
 {
   core::Config scenario = core::Config::parse(
       "[world]\nwidth_m=120\nheight_m=60\nlandmarks=120\nsteps=900\ndt_s=0.2\nscan_every=1\n"
@@ -183,7 +183,7 @@ static void expectEqualDrives(const std::string& association)
   {
     return "target_velocity_std_mps=2\ntarget_acceleration_std_mps2=1\n"
            "target_jerk_noise_mps3_per_sqrt_hz=0.3\nlandmark_tentative_s=6\nassociation=" +
-           association + "\nlocal_radius_m=" + radius;
+           association + "\nlocal_radius_m=" + radius + "\n" + more;
   };
   const sim::Scenario s = sim::Scenario::from(scenario);
   sim::World world(s, 1);
@@ -238,6 +238,7 @@ static void expectEqualDrives(const std::string& association)
 TEST(Compressed, EqualsThePlainFormOverALongDrive)
 {
   expectEqualDrives("known");
+  expectEqualDrives("known", "first_estimates=true\n");
 }
 
 TEST(Compressed, EqualsThePlainFormWithoutIdentities)

@@ -6,6 +6,7 @@
 #include <slamot/core/Error.h>
 #include <slamot/laws/Drive.h>
 #include <slamot/laws/checkFilter.h>
+#include <slamot/math/random.h>
 #include <slamot/models/RangeBearing.h>
 #include <slamot/sim/World.h>
 
@@ -59,6 +60,53 @@ core::Blob blob(const Pose2D& from, const Point2D& of, int id)
   return out;
 }
 }  // namespace
+
+// How the map as a whole lies can't be seen from within it: whatever is sighted, the heading stays
+// at least as uncertain as it was at the start.  With derivatives at ever new estimates, it does
+// not: nᵀ P⁻¹ n, n a turn of robot and map about the origin, then grows with every update.
+TEST(EkfSlamot, ByFirstEstimatesLearnsNothingOfHowTheMapLies)
+{
+  constexpr double kStd = 0.1;
+  const auto variance = [&](bool first, std::uint64_t seed)
+  {
+    core::FilterContext context;
+    context.starts.robot.emplace();
+    for (const auto f : {core::ObjectStart::kX, core::ObjectStart::kY, core::ObjectStart::kTheta})
+      context.starts.robot->value[f] = 0;
+    context.starts.robot->std[core::ObjectStart::kTheta] = kStd;
+    const auto filter =
+        test::makeFilter("ekf-slamot",
+                         std::string("association = known\ntarget_motion = damped-velocity\n") +
+                             "first_estimates = " + (first ? "true\n" : "false\n"),
+                         context);
+    math::RandomStream random{seed};
+    Pose2D truth(0, 0, kStd * random.normal());
+    double least = 1;
+    for (int i = 1; i <= 200; ++i)
+    {
+      const Pose2D increment(0.3, 0, 0.05);
+      truth = math::compose(truth, {0.3 + 0.02 * random.normal(), 0.02 * random.normal(),
+                                    0.05 + 0.02 * random.normal()});
+      core::Step step = motion(0.1 * i, increment, 0.02);
+      step.landmarks.emplace();
+      for (int k = 0; k < 6; ++k)
+      {
+        const Point2D at(6 + 14 * std::cos(k), 4 + 14 * std::sin(k));
+        core::Sighting z = sighting(truth, at, k, 0.2, 0.02);
+        z.range += 0.2 * random.normal();
+        z.bearing += 0.02 * random.normal();
+        step.landmarks->sightings.push_back(z);
+      }
+      least = std::min(least, filter->process(step).estimate.robot.cov(2, 2));
+    }
+    return least;
+  };
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+  {
+    EXPECT_GE(variance(true, seed), kStd * kStd * (1 - 1e-6)) << "seed " << seed;
+    EXPECT_LT(variance(false, seed), 0.98 * kStd * kStd) << "seed " << seed;
+  }
+}
 
 TEST(EkfSlamot, ObeysTheFilterLawsWithIdentities)
 {

@@ -28,6 +28,7 @@ EngineOf<Motion>::EngineOf(const Settings& settings, const Motion& motion,
     const Gaussian<Pose2D> pose = starts.robotPose();
     belief_.set(belief_.robot(static_cast<int>(r)),
                 Vector3(pose.mean.x, pose.mean.y, pose.mean.phi), pose.cov);
+    predicted_.emplace_back(pose.mean.x, pose.mean.y);
     times_.push_back(starts.time.value_or(time_));
     time_ = std::max(time_, times_.back());
     for (const auto& [id, start] : starts.targets) startTarget(id, start, starts.time.value_or(0));
@@ -128,9 +129,13 @@ void EngineOf<Motion>::moveRobot(int robot, const Gaussian<Pose2D>& increment)
   const auto& x = belief_.x();
   const Pose2D pose(x[robot], x[robot + 1], x[robot + 2]);
   const Pose2D next = math::compose(pose, increment.mean);
+  // By first estimates, the way is from where the robot was thought to be before the last update.
+  Point2D& from = predicted_[static_cast<std::size_t>(robot / 3)];
+  if (!settings_.firstEstimates) from = {pose.x, pose.y};
   Matrix3 F = Matrix3::Identity();
-  F(0, 2) = pose.y - next.y;
-  F(1, 2) = next.x - pose.x;
+  F(0, 2) = from.y - next.y;
+  F(1, 2) = next.x - from.x;
+  from = {next.x, next.y};
   const Matrix3 R = math::poseRotation(pose.phi);
   belief_.move(robot, Vector3(next.x, next.y, next.phi), F, R * increment.cov * R.transpose());
 }

@@ -88,9 +88,10 @@ class EngineOf : public EkfSlamot::Engine
   Belief belief_;
   Map map_;
   Tracks tracks_;
-  std::vector<Target> targets_;                     // as tracks_
-  std::vector<double> times_;                       // of each robot's last step
-  double time_;                                     // of the latest
+  std::vector<Target> targets_;     // as tracks_
+  std::vector<Point2D> predicted_;  // of each robot: its place after the last motion
+  std::vector<double> times_;       // of each robot's last step
+  double time_;                     // of the latest
   std::map<std::pair<int, int>, double> mateSeen_;  // by whom, which: when last
   std::vector<SightingRows> rows_;
   std::vector<Candidate> candidates_;

@@ -11,7 +11,28 @@ namespace slamot::filters::ekf
 namespace
 {
 constexpr int kMostRejections = 3;  // in a row, and no fewer than the sightings before
+
+/// The rows' derivatives as if the landmark were where it was first thought to be.  Derivatives at
+/// ever new estimates make the filter believe that it learns of its heading in the map what no
+/// sighting can tell; at first estimates, what can't be observed stays so: Huang, Mourikis,
+/// Roumeliotis 2008.
+void deriveAt(const Point2D& first, const Eye& eye, SightingRows& row)
+{
+  const Vector2 d(first.x - eye.x, first.y - eye.y);
+  if (row.byRobot(0, 2) != 0 || row.byRobot(1, 2) != -1)  // near: in the frame of the ray
+  {
+    const double perMetre = row.byObject.row(1).norm();
+    const Vector2 inFrame = row.byObject * d;
+    row.byRobot.col(2) << inFrame[1] / perMetre, -inFrame[0] * perMetre;
+    return;
+  }
+  const double q = d.squaredNorm(), r = std::sqrt(q);
+  constexpr double kMin = models::RangeBearing::kSmallestRange;
+  if (!(r >= kMin)) return;
+  row.byObject << d[0] / r, d[1] / r, -d[1] / q, d[0] / q;
+  row.byRobot.leftCols<2>() = -row.byObject;
 }
+}  // namespace
 
 void Map::visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const
 {
@@ -101,6 +122,7 @@ Map::Scan Map::match(int robot, const core::LandmarkScan& scan, double time,
   else
     matchByPlace(robot, time, out);
   const Eye eye = eyeOf(belief_, robot);
+  out.from = {eye.x, eye.y};
   for (std::size_t k = 0; k < out.rays.size(); ++k)
   {
     if (out.matches[k] < 0) continue;
@@ -111,6 +133,7 @@ Map::Scan Map::match(int robot, const core::LandmarkScan& scan, double time,
     if (relate(belief_, robot, object, eye, out.rays[k], o, n) && o.d2 <= settings_.gates.outer)
     {
       rows.push_back(rowsOf(robot, object, o, out.rays[k], n));
+      if (settings_.firstEstimates) deriveAt(entry.first, eye, rows.back());
       entry.rejections = 0;
       continue;
     }
@@ -194,7 +217,7 @@ std::vector<std::int32_t> Map::settle(int robot, const core::LandmarkScan& scan,
       entry.lastSeen = time;
     }
     else if (out[k] == kNew)
-      start(robot, matched.rays[k], scan.sightings[k].id, time, out[k]);
+      start(robot, matched.rays[k], scan.sightings[k].id, time, matched.from, out[k]);
   }
   forgetUnconfirmed(time);
   return out;
@@ -221,15 +244,21 @@ void Map::forgetUnconfirmed(double time)
   }
 }
 
-void Map::start(int robot, const Ray& ray, int id, double time, std::int32_t& slot)
+void Map::start(int robot, const Ray& ray, int id, double time, const Point2D& from,
+                std::int32_t& slot)
 {
-  const Eye eye = eyeOf(belief_, robot);
+  Eye eye = eyeOf(belief_, robot);
   const Gaussian<Point2D> place = invert(eye, ray);
+  if (settings_.firstEstimates)
+  {
+    eye.x = from.x;
+    eye.y = from.y;
+  }
   slot = belief_.addLandmark(robot, place, placeByRobot(eye, place.mean));
   const auto s = static_cast<std::size_t>(slot);
   if (s >= entries_.size()) entries_.resize(s + 1);
   const bool known = settings_.association == Association::kKnown;
-  entries_[s] = {known ? id : nextNumber_++, 1, time, 0};
+  entries_[s] = {known ? id : nextNumber_++, 1, time, 0, place.mean};
   if (known) slotOf_[id] = slot;
 }
 }  // namespace slamot::filters::ekf

@@ -21,6 +21,7 @@ class Map : public core::LandmarkView
   {
     std::vector<Ray> rays;
     std::vector<std::int32_t> matches;
+    Point2D from;  ///< where the robot is before the update
   };
   /// Pairs a scan's sightings, and appends the rows of those that are paired.
   [[nodiscard]] Scan match(int robot, const core::LandmarkScan& scan, double time,
@@ -39,6 +40,7 @@ class Map : public core::LandmarkView
     int sightings = 0;  // 0: the slot is free
     double lastSeen = 0;
     int rejections = 0;  // sightings with its identity in a row that were elsewhere
+    Point2D first;       // its first estimate
   };
   [[nodiscard]] bool isConfirmed(const Entry& e) const
   {
@@ -55,7 +57,8 @@ class Map : public core::LandmarkView
   {
     return settings_.noiseAfter(time - e.lastSeen);
   }
-  void start(int robot, const Ray& ray, int id, double time, std::int32_t& slot);
+  void start(int robot, const Ray& ray, int id, double time, const Point2D& from,
+             std::int32_t& slot);
 
   const Settings& settings_;
   Belief& belief_;

@@ -15,6 +15,7 @@ Settings Settings::from(core::Params& p)
   const bool known = s.association == Association::kKnown;
   s.confirmSightings = p.integer("confirm_sightings", 1, 1000000, known ? 1 : 3);
   s.tentativeTime = p.positive("landmark_tentative_s", 30.0);
+  s.firstEstimates = p.flag("first_estimates", false);
   s.localRadius = p.nonNegative("local_radius_m", 0.0);
   return s;
 }

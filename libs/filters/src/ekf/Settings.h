@@ -18,6 +18,7 @@ struct Settings : TargetSettings, LandmarkNoise
   double gateProbability;  ///< that a true pair, or a true set of pairs, is kept
   int confirmSightings;    ///< landmarks seen less often are not reported
   double tentativeTime;    ///< [s] without a sighting, after which one not yet reported is dropped
+  bool firstEstimates;     ///< derivatives by pose and landmark at their first estimates
   double localRadius;      ///< [m] about the robot, within which landmarks are local; 0: all are
 
   static Settings from(core::Params& p);
