@@ -23,6 +23,13 @@ const Member kMembers[] = {
     {"gmphd-ufastslam", "detection_probability = 0.98\n", false},
     {"gmphd-ufastslam", "detection_probability = 0.98\nparticle_weight = single-feature\n", false},
     {"gmphd-ufastslam", "detection_probability = 0.98\nparticle_weight = empty-set\n", false},
+    {"gmphd-ufastslam",
+     "detection_probability = 0.98\ntargets = gm-phd\ntarget_detection_probability = 0.98\n",
+     false},
+    {"rbpf-slamot",
+     "particles = 40\nproposal = informed\nassociation = known\nconfirm_sightings = 1\n"
+     "targets = gm-phd\ntarget_detection_probability = 0.98\n",
+     true},
 };
 std::string keysOf(const Member& m)
 {

@@ -12,6 +12,7 @@ namespace slamot::filters::rbpf
 namespace
 {
 constexpr double kLongestUnsampledTurn = 0.2;  // [rad] deviation of the pending heading
+constexpr TargetSetSettings kNoSet{};
 
 double meanStd(const Gaussian<Pose2D>& g)
 {
@@ -31,6 +32,9 @@ EngineOf<Motion>::EngineOf(const Settings& settings, const Motion& motion,
       tracks_(settings.tracks),
       scan_(settings_, pool_, workers_.lanes()),
       intensity_(settings_, scan_, pool_),
+      labels_(settings.targetSet.value_or(TargetSetSettings{}), settings.tracks),
+      mixture_(settings_.targetSet ? *settings_.targetSet : kNoSet, settings_.gates, motion_,
+               labels_),
       scratch_(static_cast<std::size_t>(workers_.lanes())),
       bestMap_(settings_, scan_)
 {
@@ -50,9 +54,6 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
   priors_.resize(n);
   weights_.assign(n, 1.0 / static_cast<double>(n));
   const double time = context.starts.time.value_or(-std::numeric_limits<double>::infinity());
-  for (const auto& [id, target] : context.starts.targets)
-    if (target.value[core::ObjectStart::kX] && target.value[core::ObjectStart::kY])
-      tracks_.addStart(id, context.starts.time.value_or(0));
   for (std::size_t i = 0; i < n; ++i)
   {
     auto& p = particles_[i];
@@ -65,9 +66,8 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
       const Vector3 d = L * random.normal3();
       p.pose = {p.pose.x + d[0], p.pose.y + d[1], math::wrapToPi(p.pose.phi + d[2])};
     }
-    for (const Track& t : tracks_.list())
-      p.targets.push_back(motion_.start(context.starts.targets.at(t.id)));
   }
+  startTargets(context.starts);
   if (settings_.isInformed()) pending_.cov = bodyCov;
   particles_.beforeSubstitution = [this]
   {
@@ -80,13 +80,33 @@ void EngineOf<Motion>::start(const core::FilterContext& context)
 }
 
 template <class Motion>
+void EngineOf<Motion>::startTargets(const core::Starts& starts)
+{
+  for (const auto& [id, start] : starts.targets)
+  {
+    if (!start.value[core::ObjectStart::kX] || !start.value[core::ObjectStart::kY]) continue;
+    const double time = starts.time.value_or(0);
+    const State state = motion_.start(start);
+    if (hasTargetSet())
+      labels_.addStart(id, time);
+    else
+      tracks_.addStart(id, time);
+    for (std::size_t i = 0; i < particles_.size(); ++i)
+      if (hasTargetSet())
+        particles_[i].mixture.push_back({state, 1.0, labels_.key(labels_.list().size() - 1)});
+      else
+        particles_[i].targets.push_back(state);
+  }
+}
+
+template <class Motion>
 core::Update EngineOf<Motion>::process(const core::Step& step)
 {
   core::checkStep(step, estimate_.time);
   const double dt = std::isfinite(estimate_.time) ? step.time - estimate_.time : 0.0;
   const bool hasScan =
       (step.landmarks && (!step.landmarks->sightings.empty() || settings_.detection > 0)) ||
-      (step.blobs && !step.blobs->blobs.empty());
+      (step.blobs && (!step.blobs->blobs.empty() || hasTargetSet()));
   ++stepNumber_;
   kept_.clear();
   diagnostics_.ess.reset();
@@ -97,7 +117,10 @@ core::Update EngineOf<Motion>::process(const core::Step& step)
     if (step.odometry) move(*step.odometry);
     predictTargets(dt);
     if (hasScan) takeScan(step);
-    if (step.blobs) dropLostTracks(step.time);
+    if (step.blobs && hasTargetSet())
+      dropLostLabels(step.time);
+    else if (step.blobs)
+      dropLostTracks(step.time);
     updateEstimate(step.time, hasScan);
     if (hasScan) pairs = pairings(step);
   };
@@ -149,11 +172,12 @@ void EngineOf<Motion>::samplePending(std::uint64_t stream)
 template <class Motion>
 void EngineOf<Motion>::predictTargets(double dt)
 {
-  if (dt <= 0 || tracks_.list().empty()) return;
+  if (dt <= 0 || (tracks_.list().empty() && labels_.list().empty())) return;
   workers_.forEach(particles_.size(),
                    [&](std::size_t i, int)
                    {
                      for (State& t : particles_[i].targets) motion_.predict(t, dt);
+                     mixture_.predict(particles_[i].mixture, dt);
                    });
 }
 
@@ -176,6 +200,7 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
   targetNoise_.clear();
   for (const Track& t : tracks_.list())
     targetNoise_.push_back(settings_.noiseAfter(step.time - t.lastSeen));
+  if (hasTargetSet()) beginSet(step);
 
   workers_.forEach(particles_.size(), [&](std::size_t i, int lane) { updateParticle(i, lane); });
   if (scan_.size() > 0 || blobRays_.rays.size() > 0) pending_ = {};
@@ -184,7 +209,10 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
   for (const Outcome& o : outcomes_) matches.push_back(&o.landmarks);
   scan_.finish(matches);
   normalise();
-  if (step.blobs) settleTracks(step.time);
+  if (step.blobs && hasTargetSet())
+    settleSet(step.time);
+  else if (step.blobs)
+    settleTracks(step.time);
 }
 
 // Before there is a map, little can tell a pose: only targets whose start is known in the map. They
@@ -198,8 +226,12 @@ void EngineOf<Motion>::settleFrame()
   const Matrix3 R = math::poseRotation(particles_[0].pose.phi);
   bestMap_.frame = MapFrame({priors_[0], R * pending_.cov * R.transpose()});
   pending_.cov.setZero();
+  const auto widen = [&](State& t) { motion_.widen(t, bestMap_.frame.covAt(t.x[0], t.x[1])); };
   for (std::size_t i = 0; i < particles_.size(); ++i)
-    for (State& t : particles_[i].targets) motion_.widen(t, bestMap_.frame.covAt(t.x[0], t.x[1]));
+  {
+    for (State& t : particles_[i].targets) widen(t);
+    for (auto& c : particles_[i].mixture) widen(c.state);
+  }
 }
 
 template <class Motion>
@@ -217,7 +249,6 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
     root = math::poseRotation(p.pose.phi) * pendingRoot_;
     out.cov = root * root.transpose();
   }
-  const Matrix3* poseCov = settings_.isInformed() ? &out.cov : nullptr;
   double gain = 0;
   if (scan_.hasTracks())
   {
@@ -227,8 +258,7 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
   }
   else
     scan_.match(p.map, prior, root, scratch.match, out.landmarks);
-  matchBlobs(prior, blobRays_, tracks_.list(), p.targets, settings_.gates, poseCov,
-             scratch.match.candidates, out.blobs);
+  matchTargets(i, prior, scratch);
   const bool sampled = settings_.isInformed() && scan_.size() + blobRays_.rays.size() > 0;
   gain += sampled && settings_.marginalWeight ? placeByMarginal(i, root, scratch)
                                               : placeBySample(i, root, scratch, sampled, lane);
@@ -238,13 +268,23 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
   if (!settings_.intensity)
     scan_.apply(p.map, eye, out.landmarks,
                 sampled && settings_.marginalWeight ? nullptr : &scratch.innovations, lane);
-  for (std::size_t k = 0; k < out.blobs.size(); ++k)
+  for (std::size_t k = 0; k < out.blobs.size() && !hasTargetSet(); ++k)
     if (out.blobs[k] >= 0)
       correctTarget(motion_, p.targets[static_cast<std::size_t>(out.blobs[k])], eye,
                     blobRays_.rays[k]);
 }
 
-// The weight is what the proposal's Gaussian integrates to: it does not depend on the sample.
+template <class Motion>
+void EngineOf<Motion>::matchTargets(std::size_t i, const Eye& prior, Scratch& scratch)
+{
+  if (hasTargetSet()) return matchSet(i, prior, scratch);
+  const Matrix3* poseCov = settings_.isInformed() ? &outcomes_[i].cov : nullptr;
+  matchBlobs(prior, blobRays_, tracks_.list(), particles_[i].targets, settings_.gates, poseCov,
+             scratch.match.candidates, outcomes_[i].blobs);
+}
+
+// The weight is what the proposal's Gaussian integrates to: it does not depend on the sample, but
+// for a set of targets, of which the Gaussian knows the pairs alone.
 template <class Motion>
 double EngineOf<Motion>::placeByMarginal(std::size_t i, const Matrix3& root, Scratch& scratch)
 {
@@ -253,9 +293,10 @@ double EngineOf<Motion>::placeByMarginal(std::size_t i, const Matrix3& root, Scr
   PoseUpdate update;
   double gain =
       scan_.weigh(particles_[i].map, prior, out.cov, out.landmarks, scratch.innovations, &update);
-  gain += weighTargets(i, prior, &update);
+  gain += weighTargets(i, prior, &update, scratch);
   const PoseUpdate::Result r = update.solve(root);
   samplePose(i, r);
+  if (hasTargetSet()) gain += takeOverPairs(i, prior, scratch);
   return gain + r.logGain;
 }
 
@@ -271,13 +312,13 @@ double EngineOf<Motion>::placeBySample(std::size_t i, const Matrix3& root, Scrat
   {
     const Eye prior(priors_[i]);
     PoseUpdate update = scan_.gather(p.map, prior, root, out.landmarks);
-    (void)weighTargets(i, prior, &update);
+    (void)weighTargets(i, prior, &update, scratch);
     const PoseUpdate::Result r = update.solve(root);
     const Vector3 u = samplePose(i, r), w = r.white + r.whiteRoot * u;
     gain = 0.5 * (u.squaredNorm() - w.squaredNorm()) + r.logRoot;
   }
   const Eye eye(sampled ? p.pose : priors_[i]);
-  gain += weighTargets(i, eye, nullptr);
+  gain += weighTargets(i, eye, nullptr, scratch);
   if (settings_.intensity)
     return gain + intensity_.update(p.map, eye, out.landmarks, scratch.intensity, lane);
   return gain +
@@ -285,8 +326,11 @@ double EngineOf<Motion>::placeBySample(std::size_t i, const Matrix3& root, Scrat
 }
 
 template <class Motion>
-double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate* update)
+double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate* update,
+                                      Scratch& scratch)
 {
+  if (hasTargetSet())
+    return update ? shapeBySet(i, eye, *update, scratch) : takeIntoSet(i, eye, scratch);
   double sum = 0;
   const auto& p = particles_[i];
   const auto& blobs = outcomes_[i].blobs;

@@ -4,6 +4,7 @@
 #include "Intensity.h"
 #include "JointFusion.h"
 #include "ParticleSet.h"
+#include "TargetMixture.h"
 #include "Workers.h"
 
 #include <slamot/core/Team.h>
@@ -67,9 +68,12 @@ class EngineOf : public RbpfSlamot::Engine
     std::vector<Innovation> innovations;
     TrackScratch tracks;
     Intensity::Scratch intensity;
+    typename TargetMixture<Motion>::Scratch mixture;
+    std::vector<std::pair<Innovation, bool>> paired;  // with confirmed targets; with a range?
   };
 
   void start(const core::FilterContext& context);
+  void startTargets(const core::Starts& starts);
   void move(const Gaussian<Pose2D>& increment);
   void samplePending(std::uint64_t stream);
   void predictTargets(double dt);
@@ -79,7 +83,8 @@ class EngineOf : public RbpfSlamot::Engine
   double placeByMarginal(std::size_t i, const Matrix3& root, Scratch& scratch);
   double placeBySample(std::size_t i, const Matrix3& root, Scratch& scratch, bool sampled,
                        int lane);
-  double weighTargets(std::size_t i, const Eye& eye, PoseUpdate* update);
+  void matchTargets(std::size_t i, const Eye& prior, Scratch& scratch);
+  double weighTargets(std::size_t i, const Eye& eye, PoseUpdate* update, Scratch& scratch);
   Vector3 samplePose(std::size_t i, const PoseUpdate::Result& r);
   void settleTracks(double time);
   std::vector<double> voteShares(std::size_t blob, std::size_t known) const;
@@ -91,6 +96,27 @@ class EngineOf : public RbpfSlamot::Engine
   void updateEstimate(double time, bool afterScan);
   void showMap(std::size_t particle);
   [[nodiscard]] std::vector<core::Pairing> pairings(const core::Step& step) const;
+  void estimateTracks();
+
+  // Targets as a random finite set: targetSet.cpp.
+  struct Summary  // of a label
+  {
+    double existence = 0;
+    TargetMoments<Motion> moments;  // of each particle's heaviest component with it
+  };
+  [[nodiscard]] bool hasTargetSet() const { return settings_.targetSet.has_value(); }
+  void beginSet(const core::Step& step);
+  void matchSet(std::size_t i, const Eye& prior, Scratch& scratch);
+  double shapeBySet(std::size_t i, const Eye& prior, PoseUpdate& update, Scratch& scratch) const;
+  double takeIntoSet(std::size_t i, const Eye& eye, Scratch& scratch);
+  double takeOverPairs(std::size_t i, const Eye& prior, Scratch& scratch);
+  void settleSet(double time);
+  void settleLabels();
+  void absorb(std::size_t younger, std::size_t older);
+  void dropLostLabels(double time);
+  void dropLabels(const std::vector<std::uint64_t>& keys);
+  [[nodiscard]] std::vector<Summary> summarise() const;
+  void estimateSet();
 
   // The part of a team: team.cpp.
   using Kinematics = decltype(Motion::kinematics(State{}).value);
@@ -117,11 +143,14 @@ class EngineOf : public RbpfSlamot::Engine
   LandmarkScan scan_;
   Intensity intensity_;
   BlobRays blobRays_;
-  Gaussian<Pose2D> pending_;     // informed: motion since the poses were last sampled
-  Matrix3 pendingRoot_;          // a square root of its covariance, for the scan
-  bool placed_ = false;          // informed: a pose has been sampled, or the map begun
-  std::vector<Pose2D> priors_;   // each particle's pose before the scan
-  std::vector<double> weights_;  // normalised, after the scan
+  TargetLabels labels_;  // targets = gm-phd, as mixture_
+  TargetMixture<Motion> mixture_;
+  std::vector<std::uint64_t> hidden_;  // labels of targets that have an older one
+  Gaussian<Pose2D> pending_;           // informed: motion since the poses were last sampled
+  Matrix3 pendingRoot_;                // a square root of its covariance, for the scan
+  bool placed_ = false;                // informed: a pose has been sampled, or the map begun
+  std::vector<Pose2D> priors_;         // each particle's pose before the scan
+  std::vector<double> weights_;        // normalised, after the scan
   std::vector<Outcome> outcomes_;
   std::vector<Scratch> scratch_;
   std::vector<double> targetNoise_;  // of each track, where its sightings shape the poses

@@ -1,6 +1,7 @@
 #include "Intensity.h"
 
 #include "sighting/Targets.h"
+#include "sighting/inView.h"
 
 #include <algorithm>
 
@@ -8,14 +9,6 @@ namespace slamot::filters::rbpf
 {
 namespace
 {
-/// The part of N(0, 1) below t.
-double below(double t)
-{
-  if (t > 4) return 1;
-  if (t < -4) return 0;
-  return 0.5 * std::erfc(-t * 0.70710678118654752);
-}
-
 /// N(point; μ, P) of a component [1/m²].
 double densityAt(const maps::Landmark& c, double x, double y)
 {
@@ -77,19 +70,9 @@ maps::Landmark mergedOf(const maps::Landmark& a, const maps::Landmark& b)
 
 double Intensity::detectionAt(const Eye& eye, const maps::Landmark& m) const
 {
-  const core::FieldOfView& fov = scan_.slots().fov();
-  const double dx = m.x - eye.x, dy = m.y - eye.y, r = std::hypot(dx, dy);
-  const double std = std::sqrt(largestEigenvalue(m.cxx, m.cxy, m.cyy) + scan_.slots().rangeVar());
-  double in = below((fov.rangeMax - r) / std);
-  if (in <= 0) return 0;
-  if (fov.rangeMin > 0) in *= below((r - fov.rangeMin) / std);
-  if (fov.bearingMax - fov.bearingMin < math::kTwoPi - 1e-6)
-  {
-    const double bearing = math::wrapToPi(std::atan2(dy, dx) - eye.phi);
-    const double turn = std::max(std / std::max(r, std), std::sqrt(scan_.slots().bearingVar()));
-    in *= below((bearing - fov.bearingMin) / turn) * below((fov.bearingMax - bearing) / turn);
-  }
-  return settings_.detection * in;
+  const ScanSlots& slots = scan_.slots();
+  const double var = largestEigenvalue(m.cxx, m.cxy, m.cyy) + slots.rangeVar();
+  return settings_.detection * partInView(slots.fov(), eye, m.x, m.y, var, slots.bearingVar());
 }
 
 void Intensity::collect(const maps::LandmarkMap& map, const Eye& eye, Scratch& s) const

@@ -9,13 +9,23 @@
 
 namespace slamot::filters::rbpf
 {
+/// A Gaussian of a particle's intensity of moving targets.
+template <class TargetState>
+struct TargetComponent
+{
+  TargetState state;
+  double weight = 0;        ///< targets expected in it
+  std::uint64_t label = 0;  ///< of TargetLabels: one birth's, whatever the particle
+};
+
 template <class TargetState>
 struct Particle
 {
   Pose2D pose;
   Pose2D shift;  // what a team moved all of it by: pose, map and targets are given before this
-  maps::LandmarkMap map;  // a handle: nodes are shared
-  std::vector<TargetState> targets;
+  maps::LandmarkMap map;                              // a handle: nodes are shared
+  std::vector<TargetState> targets;                   // one for each track, targets = tracks
+  std::vector<TargetComponent<TargetState>> mixture;  // targets = gm-phd, heaviest first
   std::vector<std::int32_t> followed;  // the landmark that each track of sightings is of
 };
 

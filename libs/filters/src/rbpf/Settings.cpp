@@ -49,6 +49,31 @@ IntensitySettings readIntensity(core::Params& p, double detection)
   return s;
 }
 
+std::optional<TargetSetSettings> readTargetSet(core::Params& p)
+{
+  p.allowUnused({"target_survival", "target_birth_weight", "target_detection_probability",
+                 "target_clutter_per_scan", "target_prune_weight", "target_merge_distance2",
+                 "target_merge_floor_std_m", "target_most_components", "target_confirm_weight",
+                 "target_unconfirm_weight"});
+  if (p.choice("targets", {"tracks", "gm-phd"}, "tracks") == "tracks") return {};
+  TargetSetSettings s{};
+  s.survival = p.inRange("target_survival", 1e-6, 1, 0.99);
+  s.birthWeight = p.positive("target_birth_weight", 0.01);
+  s.detection = p.inRange("target_detection_probability", 1e-6, 0.999, 0.95);
+  s.clutter = p.positive("target_clutter_per_scan", 0.1);
+  s.pruneWeight = p.positive("target_prune_weight", 1e-4);
+  s.mergeDistance2 = p.positive("target_merge_distance2", 4.0);
+  s.floorVar = std::pow(p.nonNegative("target_merge_floor_std_m", 0.05), 2);
+  s.mostComponents = p.integer("target_most_components", 1, 100000, 100);
+  // A target stays though two misses in a row leave little of its weight, since it is more likely
+  // there than not; so that it must be all but sure before it is one.
+  s.confirm = p.positive("target_confirm_weight", 0.9);
+  s.unconfirm = p.positive("target_unconfirm_weight", 0.25 * std::pow(1 - s.detection, 2));
+  if (s.unconfirm >= s.confirm)
+    p.fail("target_unconfirm_weight", "is not below target_confirm_weight", "make it smaller");
+  return s;
+}
+
 void checkTogether(const core::Params& p, const Settings& s)
 {
   if ((s.tracking.rangeStd > 0) != (s.tracking.bearingStd > 0))
@@ -89,6 +114,7 @@ Settings Settings::from(core::Params& p, const Preset& preset)
   s.detection = p.inRange("detection_probability", 0, 0.999, intensity ? 0.95 : 0.0);
   s.clutter = p.nonNegative("clutter_per_scan", intensity ? 0.1 : 0.0);
   if (intensity) s.intensity = readIntensity(p, s.detection);
+  s.targetSet = readTargetSet(p);
   checkTogether(p, s);
   readResampling(p, s);
   return s;

@@ -41,6 +41,20 @@ struct IntensitySettings
   IntensityWeight weight;
 };
 
+/// Keys of moving targets that are a GM-PHD intensity.
+struct TargetSetSettings
+{
+  double survival;            ///< chance that a target is still there a second later
+  double birthWeight;         ///< of a component born from a blob
+  double detection;           ///< chance to see a target in view
+  double clutter;             ///< false blobs a scan, mean
+  double pruneWeight;         ///< components below are dropped
+  double mergeDistance2;      ///< squared Mahalanobis distance within which components are merged
+  double floorVar;            ///< added to their covariances for that distance [m², (m/s)², ...]
+  int mostComponents;         ///< of a particle
+  double confirm, unconfirm;  ///< existence at which a target is reported, and no more is
+};
+
 /// What the members of the family set when the configuration does not.  Absent: a key without
 /// default.
 struct Preset
@@ -66,6 +80,7 @@ struct Settings : TargetSettings, LandmarkNoise
   double detection;                   ///< chance to see a landmark in view; 0: misses tell nothing
   double clutter;                     ///< false sightings a scan, mean; 0: not known
   std::optional<IntensitySettings> intensity;  ///< map = gm-phd, not landmarks
+  std::optional<TargetSetSettings> targetSet;  ///< targets = gm-phd, not tracks
   ::mrpt::bayes::CParticleFilter::TParticleFilterOptions resampling;
 
   static Settings from(core::Params& p, const Preset& preset);

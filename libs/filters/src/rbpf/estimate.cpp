@@ -45,11 +45,23 @@ void EngineOf<Motion>::updateEstimate(double time, bool afterScan)
   bestMap_.frame.addTo(estimate_.robot);
 
   estimate_.targets.clear();
+  if (hasTargetSet())
+    estimateSet();
+  else
+    estimateTracks();
+  std::sort(estimate_.targets.begin(), estimate_.targets.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+  if (afterScan) showMap(best_);
+}
+
+template <class Motion>
+void EngineOf<Motion>::estimateTracks()
+{
   for (std::size_t t = 0; t < tracks_.list().size(); ++t)
   {
     if (!tracks_.list()[t].confirmed) continue;
     TargetMoments<Motion> moments;
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < particles_.size(); ++i)
       if (isMoved_)
         moments.add(weights_[i], moved<Motion>(particles_[i].shift, particles_[i].targets[t]));
       else
@@ -57,9 +69,6 @@ void EngineOf<Motion>::updateEstimate(double time, bool afterScan)
     estimate_.targets.push_back(moments.estimate(tracks_.list()[t]));
     bestMap_.frame.addTo(estimate_.targets.back());
   }
-  std::sort(estimate_.targets.begin(), estimate_.targets.end(),
-            [](const auto& a, const auto& b) { return a.id < b.id; });
-  if (afterScan) showMap(best_);
 }
 
 template <class Motion>
@@ -112,6 +121,7 @@ std::vector<core::WeightedPose> EngineOf<Motion>::particles() const
 #define SLAMOT_ESTIMATE_PART(Motion)                                                       \
   template Gaussian<Pose2D> EngineOf<Motion>::poseOf(std::size_t) const;                   \
   template void EngineOf<Motion>::updateEstimate(double, bool);                            \
+  template void EngineOf<Motion>::estimateTracks();                                        \
   template void EngineOf<Motion>::showMap(std::size_t);                                    \
   template std::vector<core::Pairing> EngineOf<Motion>::pairings(const core::Step&) const; \
   template std::vector<core::WeightedPose> EngineOf<Motion>::particles() const

@@ -97,13 +97,11 @@ void matchBlobs(const Eye& eye, const BlobRays& scan, const std::vector<Track>& 
       candidates, matches);
 }
 
-/// Takes a blob into a target, seen from a known pose.
+/// Takes a blob into a target by the innovation of it.
 template <class Motion>
 void correctTarget(const Motion& motion, typename Motion::State& t, const Eye& eye, const Ray& ray,
-                   const Matrix3* poseCov = nullptr)
+                   const Innovation& o)
 {
-  Innovation o;
-  if (!innovateTarget(eye, ray, t, o, poseCov)) return;
   Matrix2 S, H;
   S << o.s11, o.s12, o.s12, o.s22;
   H << o.h11, o.h12, o.h21, o.h22;
@@ -111,6 +109,15 @@ void correctTarget(const Motion& motion, typename Motion::State& t, const Eye& e
   t.template correct<2>(nu, S, H);
   const Gaussian<Point2D> seenAt = invert(eye, ray);
   motion.afterCorrection(t, ray.hasRange ? &seenAt : nullptr);
+}
+
+/// Takes a blob into a target, seen from a known pose.
+template <class Motion>
+void correctTarget(const Motion& motion, typename Motion::State& t, const Eye& eye, const Ray& ray,
+                   const Matrix3* poseCov = nullptr)
+{
+  Innovation o;
+  if (innovateTarget(eye, ray, t, o, poseCov)) correctTarget(motion, t, eye, ray, o);
 }
 
 /// log of the density of an innovation of (range, bearing), or of the bearing alone.
