@@ -27,15 +27,15 @@ PosteriorBound bound(const Scenario& s, std::uint64_t seed = 1, int robots = 1)
 {
   const auto out = posteriorBound(s, seed, robots);
   EXPECT_TRUE(out.has_value());
-  return out.value_or(PosteriorBound{{{0, 0}}, {}, {}});
+  return out.value_or(PosteriorBound{{{}}, {}, {}});
 }
 
 TEST(PosteriorBound, OfSpeedAloneIsARandomWalk)
 {
   const auto b = bound(scenario(alone({"robot.omega_std_radps=0"})));
   // Variance k (0.4 * 0.025)² after k of 320 steps, the start among them.
-  EXPECT_NEAR(b.robots[0].position, 0.01 * std::sqrt(160.0), 1e-12);
-  EXPECT_NEAR(b.robots[0].heading, 0, 1e-12);
+  EXPECT_NEAR(b.robots[0].position.bound, 0.01 * std::sqrt(160.0), 1e-12);
+  EXPECT_NEAR(b.robots[0].heading.bound, 0, 1e-12);
   EXPECT_FALSE(b.map);
 }
 
@@ -51,8 +51,8 @@ TEST(PosteriorBound, OfTurnRateAloneIsThatOfItsIntegrals)
     // the way bends a little.
     for (int j = 0; j < k; ++j) place += q * std::pow(way * (j + 1), 2) / 321;
   }
-  EXPECT_NEAR(b.robots[0].heading, std::sqrt(heading), 1e-12);
-  EXPECT_NEAR(b.robots[0].position, std::sqrt(place), 2e-3 * std::sqrt(place));
+  EXPECT_NEAR(b.robots[0].heading.bound, std::sqrt(heading), 1e-12);
+  EXPECT_NEAR(b.robots[0].position.bound, std::sqrt(place), 2e-3 * std::sqrt(place));
 }
 
 TEST(PosteriorBound, OfALandmarkSeenFromOnePlaceIsThatOfTheMean)
@@ -62,8 +62,8 @@ TEST(PosteriorBound, OfALandmarkSeenFromOnePlaceIsThatOfTheMean)
        "robot.motion=straight", "robot.start=given", "robot.start_x_m=1", "robot.start_y_m=5",
        "robot.speed_mps=0", "robot.v_std_mps=0", "robot.omega_std_radps=0"}));
   const double range2 = 2 * 2 + 3 * 3;
-  EXPECT_NEAR(*b.map, std::sqrt((0.1 * 0.1 + range2 * 0.008 * 0.008) / 40), 1e-12);
-  EXPECT_NEAR(b.robots[0].position, 0, 1e-12);
+  EXPECT_NEAR(b.map->bound, std::sqrt((0.1 * 0.1 + range2 * 0.008 * 0.008) / 40), 1e-12);
+  EXPECT_NEAR(b.robots[0].position.bound, 0, 1e-12);
 }
 
 // Landmarks are only known from where the robot started, and so tell nothing of it.
@@ -72,8 +72,9 @@ TEST(PosteriorBound, CountsStartsOnce)
   const auto exact = bound(scenario({kNoTarget}));
   const auto doubtful = bound(scenario({kNoTarget, "robot.start_std_x_m=0.3"}));
   const auto unknown = bound(scenario({kNoTarget, "robot.start_known=false"}));
-  EXPECT_NEAR(doubtful.robots[0].position, std::hypot(exact.robots[0].position, 0.3), 1e-9);
-  EXPECT_DOUBLE_EQ(unknown.robots[0].position, exact.robots[0].position);
+  EXPECT_NEAR(doubtful.robots[0].position.bound, std::hypot(exact.robots[0].position.bound, 0.3),
+              1e-9);
+  EXPECT_DOUBLE_EQ(unknown.robots[0].position.bound, exact.robots[0].position.bound);
 }
 
 // Laws, exact for each seed: derivatives are taken at the same truth, and sightings only come.
@@ -87,9 +88,9 @@ TEST_P(MoreInformation, NeverRaisesTheBound)
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
   {
     const auto a = bound(scenario({less}), seed), b = bound(scenario({more}), seed);
-    EXPECT_LE(b.robots[0].position, a.robots[0].position + 1e-12) << seed;
-    EXPECT_LE(b.robots[0].heading, a.robots[0].heading + 1e-12) << seed;
-    EXPECT_LE(b.targets.at(1), a.targets.at(1) + 1e-12) << seed;
+    EXPECT_LE(b.robots[0].position.bound, a.robots[0].position.bound + 1e-12) << seed;
+    EXPECT_LE(b.robots[0].heading.bound, a.robots[0].heading.bound + 1e-12) << seed;
+    EXPECT_LE(b.targets.at(1).bound, a.targets.at(1).bound + 1e-12) << seed;
   }
 }
 
@@ -113,16 +114,16 @@ TEST(PosteriorBound, IsBlindToClutterAndIdentities)
       bound(scenario({"landmark_sensor.clutter_per_scan=5", "target_sensor.clutter_per_scan=2",
                       "landmark_sensor.identities=false"}),
             2);
-  EXPECT_DOUBLE_EQ(a.robots[0].position, b.robots[0].position);
-  EXPECT_DOUBLE_EQ(a.targets.at(1), b.targets.at(1));
+  EXPECT_DOUBLE_EQ(a.robots[0].position.bound, b.robots[0].position.bound);
+  EXPECT_DOUBLE_EQ(a.targets.at(1).bound, b.targets.at(1).bound);
 }
 
 TEST(PosteriorBound, OfATargetCountsFromItsFirstSighting)
 {
   const auto known = bound(scenario(), 4);
   const auto unknown = bound(scenario({"target.start_known=false"}), 4);
-  EXPECT_GT(unknown.targets.at(1), known.targets.at(1));
-  EXPECT_LT(unknown.targets.at(1), 1);
+  EXPECT_GT(unknown.targets.at(1).bound, known.targets.at(1).bound);
+  EXPECT_LT(unknown.targets.at(1).bound, 1);
   const auto never =
       bound(scenario({"target.start_known=false", "target_sensor.detection_probability=0"}), 4);
   EXPECT_TRUE(never.targets.empty());
@@ -135,9 +136,9 @@ TEST(PosteriorBound, OfATeamIsBelowThatOfOneRobot)
   {
     const auto one = bound(s, seed, 1), two = bound(s, seed, 2);
     ASSERT_EQ(two.robots.size(), 2u);
-    EXPECT_LT(two.robots[0].position, one.robots[0].position);
-    EXPECT_LT(two.targets.at(0), one.targets.at(0));
-    EXPECT_GT(two.targets.at(0), 0);
+    EXPECT_LT(two.robots[0].position.bound, one.robots[0].position.bound);
+    EXPECT_LT(two.targets.at(0).bound, one.targets.at(0).bound);
+    EXPECT_GT(two.targets.at(0).bound, 0);
   }
 }
 
@@ -147,15 +148,49 @@ TEST(PosteriorBound, OfATeamThatSharesNothingIsThatOfEachRobot)
   const Scenario s = test::team({"world.steps=200", "target_sensor.detection_probability=0",
                                  "mate_sensor.detection_probability=0", "world.landmarks=0"});
   const auto one = bound(s, 1, 1), two = bound(s, 1, 2);
-  EXPECT_NEAR(two.robots[0].position, one.robots[0].position, 1e-12);
-  EXPECT_NEAR(two.robots[0].heading, one.robots[0].heading, 1e-12);
+  EXPECT_NEAR(two.robots[0].position.bound, one.robots[0].position.bound, 1e-12);
+  EXPECT_NEAR(two.robots[0].heading.bound, one.robots[0].heading.bound, 1e-12);
+}
+
+// What the efficient filter makes of the noises drawn, against what its covariance says: mean
+// squares over 100 seeds.
+void expectEfficient(const Scenario& s, int robots, int targets)
+{
+  std::map<std::string, std::pair<double, double>> squares;
+  const auto add = [&](const std::string& what, const PosteriorBound::Figure& f)
+  {
+    squares[what].first += f.efficient * f.efficient;
+    squares[what].second += f.bound * f.bound;
+  };
+  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+  {
+    const auto b = bound(s, seed, robots);
+    add("position", b.robots[0].position);
+    add("heading", b.robots[0].heading);
+    add("map", *b.map);
+    for (const auto& [id, figure] : b.targets) add("target " + std::to_string(id), figure);
+  }
+  EXPECT_EQ(squares.size(), 3u + static_cast<std::size_t>(targets));
+  for (const auto& [what, sum] : squares)
+    EXPECT_NEAR(std::sqrt(sum.first / sum.second), 1, 0.15) << what;
+}
+
+TEST(PosteriorBound, IsTheMeanSquareOfTheEfficientFilter)
+{
+  expectEfficient(scenario({"robot.start_std_x_m=0.05", "robot.start_std_theta_rad=0.02"}), 1, 1);
+  expectEfficient(scenario({"target.start_known=false", "target_sensor.bearing_only=true"}), 1, 1);
+}
+
+TEST(PosteriorBound, IsTheMeanSquareOfTheEfficientFilterOfATeam)
+{
+  expectEfficient(test::team({"world.steps=60"}), 2, 1);
 }
 
 TEST(PosteriorBound, IsTheSameForEqualSeeds)
 {
   const Scenario s = shipped("loop");
-  EXPECT_EQ(bound(s, 7).robots[0].position, bound(s, 7).robots[0].position);
-  EXPECT_NE(bound(s, 7).robots[0].position, bound(s, 8).robots[0].position);
+  EXPECT_EQ(bound(s, 7).robots[0].position.bound, bound(s, 7).robots[0].position.bound);
+  EXPECT_NE(bound(s, 7).robots[0].position.bound, bound(s, 8).robots[0].position.bound);
 }
 
 // Where 2000 points got to, against the covariance that the linear motion gives.

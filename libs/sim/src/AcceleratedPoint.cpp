@@ -100,17 +100,20 @@ void AcceleratedPoint::move(double dt, math::RandomStream& random, Linear* linea
   for (int i = 0; i < kParts; ++i)
   {
     const Vector2 before = velocity();
-    const auto jacobianBefore = velocityJacobian();
-    pace_.move(h, random.normal());
-    turn_.move(h, random.normal());
+    Eigen::Matrix<double, 2, kSize> jacobianBefore;
+    if (linear) jacobianBefore = velocityJacobian();
+    const double pace = random.normal(), turn = random.normal();
+    pace_.move(h, pace);
+    turn_.move(h, turn);
     const Vector2 mean = 0.5 * (before + velocity());
     at_ = {at_.x + mean.x() * h, at_.y + mean.y() * h};
-    if (linear) extend(*linear, h, jacobianBefore);
+    if (linear) extend(*linear, h, jacobianBefore, {pace, turn});
   }
 }
 
 void AcceleratedPoint::extend(Linear& linear, double h,
-                              const Eigen::Matrix<double, 2, kSize>& before) const
+                              const Eigen::Matrix<double, 2, kSize>& before,
+                              const Vector2& deviates) const
 {
   using Square = Eigen::Matrix<double, kSize, kSize>;
   Square springs = Square::Identity();
@@ -123,6 +126,7 @@ void AcceleratedPoint::extend(Linear& linear, double h,
   Square F = springs;
   F.topRows<2>() += 0.5 * h * (before + after * springs);
   gain.topRows<2>() = 0.5 * h * after * gain;
+  linear.w = (F * linear.w + gain * deviates).eval();
   linear.F = (F * linear.F).eval();
   linear.Q = (F * linear.Q * F.transpose() + gain * gain.transpose()).eval();
 }

@@ -23,9 +23,11 @@ class AcceleratedPoint
   /// Coordinates of its state: place (x, y) [m]; x and x' of its pace [m/s, m/s²]; y and y' of its
   /// turn [rad, rad/s].
   static constexpr int kSize = 6;
-  /// How small errors of the state go on over a move: to F e + w, w of covariance Q.
+  /// How small differences of the state go on over a move: to F d + w, w of covariance Q; and the w
+  /// that was drawn.
   struct Linear
   {
+    Eigen::Matrix<double, kSize, 1> w = Eigen::Matrix<double, kSize, 1>::Zero();
     Eigen::Matrix<double, kSize, kSize> F = Eigen::Matrix<double, kSize, kSize>::Identity();
     Eigen::Matrix<double, kSize, kSize> Q = Eigen::Matrix<double, kSize, kSize>::Zero();
   };
@@ -61,8 +63,9 @@ class AcceleratedPoint
     double noise, limit, rate;
     double x = 0, speed = 0;
   };
-  /// By a part of a move, after it; with the velocity's derivative before it.
-  void extend(Linear& linear, double h, const Eigen::Matrix<double, 2, kSize>& before) const;
+  /// By a part of a move, after it; with the velocity's derivative before it, and its deviates.
+  void extend(Linear& linear, double h, const Eigen::Matrix<double, 2, kSize>& before,
+              const Vector2& deviates) const;
   [[nodiscard]] double direction() const { return math::wrapToPi(start_.phi + turn_.value()); }
   [[nodiscard]] Vector2 velocity() const;
   [[nodiscard]] Eigen::Matrix<double, 2, kSize> velocityJacobian() const;

@@ -17,8 +17,7 @@ Bodies::Bodies(const Scenario& scenario, std::uint64_t seed, bool linearise)
 
 Bodies::Body Bodies::makeBody(const Motion& motion, const Pose2D& pose, std::uint64_t key) const
 {
-  Body out{pose, {motion, scenario_.area, stream(seed_, Purpose::kManoeuvre, 0, key)}, {}, {}, {},
-           {}};
+  Body out{pose, {motion, scenario_.area, stream(seed_, Purpose::kManoeuvre, 0, key)}};
   if (motion.kind == Motion::Kind::kAccelerated) out.point.emplace(motion, pose);
   return out;
 }
@@ -73,6 +72,7 @@ void Bodies::drive(Body& body, const Command& c, const Motion& m, std::uint64_t 
   executed.turn +=
       (m.drive == Motion::Drive::kSteering ? m.steerStd : m.omegaStd) * random.normal();
   body.before = body.pose;
+  body.told = increment(m, c, scenario_.dt).mean;
   body.executed = increment(m, executed, scenario_.dt);
   body.pose = math::compose(body.pose, body.executed.mean);
 }
@@ -88,12 +88,15 @@ void Bodies::moveTarget(Body& body, const Motion& m, std::uint64_t key) const
 
 Transition Bodies::transition(const Body& body)
 {
-  if (body.point) return {body.linear.F, body.linear.Q};
+  if (body.point) return {body.linear.F, body.linear.Q, body.linear.w};
   Matrix3 F = Matrix3::Identity();
   F(0, 2) = -(body.pose.y - body.before.y);
   F(1, 2) = body.pose.x - body.before.x;
   const Matrix3 R = math::poseRotation(body.before.phi);
-  return {F, R * body.executed.cov * R.transpose()};
+  const Pose2D expected = math::compose(body.before, body.told);
+  const Vector3 w(body.pose.x - expected.x, body.pose.y - expected.y,
+                  math::wrapToPi(body.pose.phi - expected.phi));
+  return {F, R * body.executed.cov * R.transpose(), w};
 }
 
 Transition Bodies::robotTransition(int index) const

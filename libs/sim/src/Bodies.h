@@ -8,10 +8,12 @@
 
 namespace slamot::sim
 {
-/// How small errors of a state go on over a step: to F e + w, w of covariance Q.
+/// How small differences of a state go on over a step: to F d + w, w of covariance Q; and the w
+/// that was drawn.
 struct Transition
 {
   Eigen::MatrixXd F, Q;
+  Eigen::VectorXd w;
 };
 
 /// The robots and their targets, as they truly move.
@@ -47,11 +49,11 @@ class Bodies
   {
     Pose2D pose;
     Driver driver;
-    std::optional<AcceleratedPoint> point;  // moves by itself instead of being driven
+    std::optional<AcceleratedPoint> point = {};  // moves by itself instead of being driven
     // The last step: from where, and what it did there.
-    Pose2D before;
-    Gaussian<Pose2D> executed;
-    AcceleratedPoint::Linear linear;
+    Pose2D before = {}, told = {};
+    Gaussian<Pose2D> executed = {};
+    AcceleratedPoint::Linear linear = {};
   };
   [[nodiscard]] Body makeBody(const Motion& motion, const Pose2D& pose, std::uint64_t key) const;
   [[nodiscard]] Command robotCommand(std::size_t robot);

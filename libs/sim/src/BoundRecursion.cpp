@@ -10,17 +10,30 @@ namespace
 {
 constexpr double kUnknownHeading = math::kPi / 1.7320508075688772;  // of any direction alike [rad]
 
-Eigen::MatrixXd startCovariance(const StartKnowledge& knowledge)
+Eigen::VectorXd startStd(const StartKnowledge& knowledge)
 {
-  Vector3 std(kUnknownPlace, kUnknownPlace, kUnknownHeading);
-  if (knowledge.known) std = {knowledge.std[0], knowledge.std[1], knowledge.std[2]};
-  return std.cwiseAbs2().asDiagonal();
+  if (!knowledge.known) return Vector3(kUnknownPlace, kUnknownPlace, kUnknownHeading);
+  return Vector3(knowledge.std[0], knowledge.std[1], knowledge.std[2]);
+}
+
+/// What was told of a start, less the truth.
+Vector3 toldError(const core::ObjectStart& told, const Pose2D& truth)
+{
+  const Pose2D pose = told.pose().mean;
+  return {pose.x - truth.x, pose.y - truth.y, math::wrapToPi(pose.phi - truth.phi)};
 }
 }  // namespace
 
-double BoundRecursion::MeanSquare::root() const
+void BoundRecursion::Squares::add(const Squares& other)
 {
-  return std::sqrt(sum / count);
+  variance += other.variance;
+  drawn += other.drawn;
+  ++count;
+}
+
+PosteriorBound::Figure BoundRecursion::Squares::figure() const
+{
+  return {std::sqrt(variance / count), std::sqrt(drawn / count)};
 }
 
 BoundRecursion::BoundRecursion(const Scenario& scenario, std::uint64_t seed, int robots)
@@ -37,22 +50,44 @@ BoundRecursion::BoundRecursion(const Scenario& scenario, std::uint64_t seed, int
 void BoundRecursion::addRobot(int index)
 {
   // Without a known start, the map's frame is that of the start.
-  const StartKnowledge& start = scenario_.robots[std::size_t(index)].start;
-  const Eigen::MatrixXd cov =
-      start.known ? startCovariance(start) : Eigen::MatrixXd(Matrix3::Zero());
-  robots_.push_back({covariance_.add(cov), {}, {}});
+  Vector3 std = Vector3::Zero(), error = Vector3::Zero();
+  if (const StartKnowledge& start = scenario_.robots[std::size_t(index)].start; start.known)
+  {
+    std = startStd(start);
+    error = toldError(*bodies_.starts(index).robot, bodies_.robot(index));
+  }
+  robots_.push_back({errors_.add(std.cwiseAbs2().asDiagonal().toDenseMatrix(), error), {}, {}});
 }
 
 void BoundRecursion::addTarget(int id, const TargetSetup& setup)
 {
   StartKnowledge start = setup.start;
   start.known = start.known && setup.isPresent(0);
-  Eigen::MatrixXd cov = startCovariance(start);
-  if (const AcceleratedPoint* point = bodies_.point(id))
-    cov = point->startStd(start).cwiseAbs2().asDiagonal();
+  const AcceleratedPoint* point = bodies_.point(id);
+  Eigen::VectorXd std = point ? Eigen::VectorXd(point->startStd(start)) : startStd(start);
   // Each robot is told with an error of its own.
-  if (start.known) cov /= static_cast<double>(robots_.size());
-  targets_[id] = {covariance_.add(cov), start.known, {}};
+  if (start.known) std /= std::sqrt(static_cast<double>(robots_.size()));
+  const int at =
+      errors_.add(std.cwiseAbs2().asDiagonal().toDenseMatrix(), startErrors(id, start, std));
+  targets_[id] = {at, start.known, {}};
+}
+
+Eigen::VectorXd BoundRecursion::startErrors(int id, const StartKnowledge& start,
+                                            const Eigen::VectorXd& std) const
+{
+  if (start.known && !bodies_.point(id))
+  {
+    Vector3 sum = Vector3::Zero();
+    for (int r = 0; r < static_cast<int>(robots_.size()); ++r)
+      sum += toldError(bodies_.starts(r).targets.at(id), bodies_.presentTargets().at(id));
+    return sum / static_cast<double>(robots_.size());
+  }
+  // Nothing is told, or of springs not in their own coordinates: as uncertain, by a draw of its
+  // own.
+  auto random = stream(seed_, Purpose::kBoundStart, 0, targetKey(id));
+  Eigen::VectorXd out(std.size());
+  for (double& e : out) e = random.normal();
+  return out.cwiseProduct(std);
 }
 
 void BoundRecursion::step()
@@ -66,33 +101,39 @@ void BoundRecursion::step()
   recordErrors();
 }
 
-double BoundRecursion::placeVariance(int at) const
+BoundRecursion::Squares BoundRecursion::squares(int at, int count) const
 {
-  return covariance_.variance(at) + covariance_.variance(at + 1);
+  Squares out;
+  for (int i = at; i < at + count; ++i)
+  {
+    out.variance += errors_.variance(i);
+    out.drawn += errors_.error(i) * errors_.error(i);
+  }
+  return out;
 }
 
 void BoundRecursion::recordErrors()
 {
   for (Robot& robot : robots_)
   {
-    robot.position.add(placeVariance(robot.at));
-    robot.heading.add(covariance_.variance(robot.at + 2));
+    robot.position.add(squares(robot.at, 2));
+    robot.heading.add(squares(robot.at + 2, 1));
   }
   const auto present = bodies_.presentTargets();
   for (auto& [id, target] : targets_)
-    if (target.begun && present.count(id)) target.position.add(placeVariance(target.at));
+    if (target.begun && present.count(id)) target.position.add(squares(target.at, 2));
 }
 
 PosteriorBound BoundRecursion::result() const
 {
   PosteriorBound out;
   for (const Robot& robot : robots_)
-    out.robots.push_back({robot.position.root(), robot.heading.root()});
-  MeanSquare map;
-  for (const auto& [id, at] : landmarkAt_) map.add(placeVariance(at));
-  if (map.count > 0) out.map = map.root();
+    out.robots.push_back({robot.position.figure(), robot.heading.figure()});
+  Squares map;
+  for (const auto& [id, at] : landmarkAt_) map.add(squares(at, 2));
+  if (map.count > 0) out.map = map.figure();
   for (const auto& [id, target] : targets_)
-    if (target.position.count > 0) out.targets[id] = target.position.root();
+    if (target.position.count > 0) out.targets[id] = target.position.figure();
   return out;
 }
 }  // namespace slamot::sim

@@ -3,7 +3,7 @@
 #include <slamot/sim/posteriorBound.h>
 
 #include "Bodies.h"
-#include "JointCovariance.h"
+#include "JointErrors.h"
 #include "Sensor.h"
 
 #include <utility>
@@ -21,49 +21,55 @@ class BoundRecursion
   [[nodiscard]] PosteriorBound result() const;
 
  private:
-  using Rows = std::vector<JointCovariance::Row>;
-  struct MeanSquare
+  using Rows = std::vector<JointErrors::Row>;
+  /// Over time or landmarks: the variances, and the squares of the errors drawn.
+  struct Squares
   {
-    double sum = 0;
+    double variance = 0, drawn = 0;
     int count = 0;
 
-    void add(double square) { sum += square, ++count; }
-    [[nodiscard]] double root() const;
+    void add(const Squares& other);
+    /// Roots of the means.
+    [[nodiscard]] PosteriorBound::Figure figure() const;
   };
   struct Robot
   {
     int at = 0;  // its first coordinate
-    MeanSquare position, heading;
+    Squares position, heading;
   };
   struct Target
   {
     int at = 0;
     bool begun = false;  // known at the start, or seen since
-    MeanSquare position;
+    Squares position;
   };
 
   void addRobot(int index);
   void addTarget(int id, const TargetSetup& setup);
-  void move(int at, const Transition& t) { covariance_.move(at, t.F, t.Q); }
-  [[nodiscard]] double placeVariance(int at) const;
+  [[nodiscard]] Eigen::VectorXd startErrors(int id, const StartKnowledge& start,
+                                            const Eigen::VectorXd& std) const;
+  void move(int at, const Transition& t) { errors_.move(at, t.F, t.Q, t.w); }
+  /// Of the coordinates from `at` on.
+  [[nodiscard]] Squares squares(int at, int count) const;
   void recordErrors();
 
   void scan(int robot);
   [[nodiscard]] ScanKeys keys(int robot, Purpose sensing, Purpose clutter) const;
   [[nodiscard]] bool counts(int robot, const SensorSetup& sensor, const core::FieldOfView& fov,
                             const Seen& seen, const std::map<int, Point2D>& objects) const;
-  [[nodiscard]] std::vector<int> scanLandmarks(int robot, Rows& rows) const;
+  [[nodiscard]] std::vector<Seen> scanLandmarks(int robot, Rows& rows) const;
   void scanTargets(int robot, Rows& rows);
   void scanMates(int robot, Rows& rows) const;
-  [[nodiscard]] JointCovariance::Row row(int robot, const SensorSetup& sensor, const Point2D& point,
-                                         int at) const;
-  void addLandmark(int robot, int id);
+  [[nodiscard]] JointErrors::Row row(int robot, const SensorSetup& sensor, const Seen& seen,
+                                     const Point2D& point, int at) const;
+  [[nodiscard]] Vector2 noiseOf(int robot, const Seen& seen, const Point2D& point) const;
+  void addLandmark(int robot, const Seen& seen);
 
   const Scenario& scenario_;
   std::uint64_t seed_;
   std::map<int, Point2D> landmarks_;
   Bodies bodies_;
-  JointCovariance covariance_;
+  JointErrors errors_;
   std::vector<Robot> robots_;
   std::map<int, Target> targets_;
   std::map<int, int> landmarkAt_;  // first coordinates, of those seen

@@ -11,11 +11,11 @@ using models::RangeBearing;
 void BoundRecursion::scan(int robot)
 {
   Rows rows;
-  const std::vector<int> fresh = scanLandmarks(robot, rows);
+  const std::vector<Seen> fresh = scanLandmarks(robot, rows);
   if (scenario_.targetSensor) scanTargets(robot, rows);
   if (scenario_.mateSensor && robots_.size() > 1) scanMates(robot, rows);
-  covariance_.observe(rows);
-  for (const int id : fresh) addLandmark(robot, id);
+  errors_.observe(rows);
+  for (const Seen& seen : fresh) addLandmark(robot, seen);
 }
 
 ScanKeys BoundRecursion::keys(int robot, Purpose sensing, Purpose clutter) const
@@ -33,19 +33,19 @@ bool BoundRecursion::counts(int robot, const SensorSetup& sensor, const core::Fi
 }
 
 /// \return those seen for the first time.
-std::vector<int> BoundRecursion::scanLandmarks(int robot, Rows& rows) const
+std::vector<Seen> BoundRecursion::scanLandmarks(int robot, Rows& rows) const
 {
   const SensorSetup& sensor = scenario_.landmarkSensor;
-  std::vector<int> fresh;
+  std::vector<Seen> fresh;
   for (const Seen& seen : sense(sensor, bodies_.robot(robot), landmarks_,
                                 keys(robot, Purpose::kLandmarkSensing, Purpose::kLandmarkClutter)))
   {
     if (!counts(robot, sensor, sensor.fov, seen, landmarks_)) continue;
     const auto known = landmarkAt_.find(seen.object);
     if (known == landmarkAt_.end())
-      fresh.push_back(seen.object);
+      fresh.push_back(seen);
     else
-      rows.push_back(row(robot, sensor, landmarks_.at(seen.object), known->second));
+      rows.push_back(row(robot, sensor, seen, landmarks_.at(seen.object), known->second));
   }
   return fresh;
 }
@@ -60,7 +60,7 @@ void BoundRecursion::scanTargets(int robot, Rows& rows)
   {
     if (!counts(robot, sensor, blobView(scenario_), seen, places)) continue;
     Target& target = targets_.at(seen.object);
-    rows.push_back(row(robot, sensor, places.at(seen.object), target.at));
+    rows.push_back(row(robot, sensor, seen, places.at(seen.object), target.at));
     target.begun = true;
   }
 }
@@ -75,31 +75,41 @@ void BoundRecursion::scanMates(int robot, Rows& rows) const
     const auto mate = static_cast<std::size_t>(seen.object);
     if (!counts(robot, sensor, blobView(scenario_), seen, mates) || mate >= robots_.size())
       continue;
-    rows.push_back(row(robot, sensor, mates.at(seen.object), robots_[mate].at));
+    rows.push_back(row(robot, sensor, seen, mates.at(seen.object), robots_[mate].at));
   }
 }
 
 // A sighting of a point whose place has the coordinates from `at` on.
-JointCovariance::Row BoundRecursion::row(int robot, const SensorSetup& sensor, const Point2D& point,
-                                         int at) const
+JointErrors::Row BoundRecursion::row(int robot, const SensorSetup& sensor, const Seen& seen,
+                                     const Point2D& point, int at) const
 {
   const auto J = RangeBearing::jacobians(bodies_.robot(robot), point);
   const int first = sensor.bearingOnly ? 1 : 0, count = 2 - first;
   const Vector2 variance(sensor.rangeStd * sensor.rangeStd, sensor.bearingStd * sensor.bearingStd);
   return {{{robots_[std::size_t(robot)].at, J.pose.middleRows(first, count)},
            {at, J.point.middleRows(first, count)}},
-          variance.segment(first, count)};
+          variance.segment(first, count),
+          noiseOf(robot, seen, point).segment(first, count)};
+}
+
+// What was drawn: the sighting less what is true.
+Vector2 BoundRecursion::noiseOf(int robot, const Seen& seen, const Point2D& point) const
+{
+  return RangeBearing::residual({seen.range, seen.bearing},
+                                RangeBearing::predict(bodies_.robot(robot), point));
 }
 
 // Of one seen first nothing else is known: its error e is what H_point e + H_pose e_pose = noise
 // makes it.
-void BoundRecursion::addLandmark(int robot, int id)
+void BoundRecursion::addLandmark(int robot, const Seen& seen)
 {
   const SensorSetup& sensor = scenario_.landmarkSensor;
-  const auto J = RangeBearing::jacobians(bodies_.robot(robot), landmarks_.at(id));
+  const Point2D& point = landmarks_.at(seen.object);
+  const auto J = RangeBearing::jacobians(bodies_.robot(robot), point);
   const Matrix2 inverse = J.point.inverse();
   const Matrix2 R = RangeBearing(sensor.rangeStd, sensor.bearingStd).noise();
-  landmarkAt_[id] = covariance_.addFrom({{robots_[std::size_t(robot)].at, -inverse * J.pose}},
-                                        inverse * R * inverse.transpose());
+  landmarkAt_[seen.object] =
+      errors_.addFrom({{robots_[std::size_t(robot)].at, -inverse * J.pose}},
+                      inverse * R * inverse.transpose(), inverse * noiseOf(robot, seen, point));
 }
 }  // namespace slamot::sim

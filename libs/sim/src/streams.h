@@ -18,7 +18,8 @@ enum class Purpose : std::uint64_t
   kTargetSensing,
   kTargetClutter,
   kMateSensing,
-  kMateClutter
+  kMateClutter,
+  kBoundStart
 };
 
 /// A robot's place among the objects, and what it adds to those it senses and knows of.  Targets

@@ -62,22 +62,28 @@ class ModelledWorld : public core::Source
   core::OdometryModel model_;
 };
 
+BoundFigures::Figure meanOf(const std::vector<sim::PosteriorBound::Figure>& figures)
+{
+  BoundFigures::Figure out;
+  for (const auto& f : figures)
+  {
+    out.bound += f.bound / static_cast<double>(figures.size());
+    out.efficient += f.efficient / static_cast<double>(figures.size());
+  }
+  return out;
+}
+
 BoundFigures figuresOf(const sim::PosteriorBound& bound)
 {
+  std::vector<sim::PosteriorBound::Figure> positions, headings, targets;
+  for (const auto& robot : bound.robots)
+    positions.push_back(robot.position), headings.push_back(robot.heading);
+  for (const auto& [id, figure] : bound.targets) targets.push_back(figure);
   BoundFigures out;
-  const auto mean = [](auto begin, auto end, auto value) -> std::optional<double>
-  {
-    double sum = 0;
-    for (auto it = begin; it != end; ++it) sum += value(*it);
-    if (begin == end) return std::nullopt;
-    return sum / static_cast<double>(std::distance(begin, end));
-  };
-  const auto& robots = bound.robots;
-  out.robotPosition = mean(robots.begin(), robots.end(), [](const auto& r) { return r.position; });
-  out.robotHeading = mean(robots.begin(), robots.end(), [](const auto& r) { return r.heading; });
-  out.map = bound.map;
-  out.target =
-      mean(bound.targets.begin(), bound.targets.end(), [](const auto& t) { return t.second; });
+  out.robotPosition = meanOf(positions);
+  out.robotHeading = meanOf(headings);
+  if (bound.map) out.map = meanOf({*bound.map});
+  if (!targets.empty()) out.target = meanOf(targets);
   return out;
 }
 

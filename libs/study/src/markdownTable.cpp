@@ -112,7 +112,8 @@ std::string tableOf(const Plan& plan, const Outcome& outcome, const TableSpec& t
                         "over the runs).\n\n";
   if (std::any_of(table.metrics.begin(), table.metrics.end(), isOfMeanSquares))
     out +=
-        "Errors by a bound are roots of ratios of mean squares, which is what a bound is of.\n\n";
+        "Errors by a bound, or by the efficient filter, are roots of ratios of mean squares, which "
+        "is what a bound is of.\n\n";
   out += markdownHead(head(plan, table.metrics));
   for (std::size_t c = 0; c < plan.cells.size(); ++c)
     for (std::size_t m = 0; m < spec.methods.size(); ++m)

@@ -13,17 +13,24 @@ namespace slamot::sim
 /// is told all associations.  Root mean squares over the run, as of errors.
 struct PosteriorBound
 {
+  struct Figure
+  {
+    double bound = 0;  ///< the root of a mean variance
+    /// The efficient filter's own error, with the noises that this run truly drew: over seeds its
+    /// mean square is that of the bound.  It has the luck of the seed, as all filters' errors have.
+    double efficient = 0;
+  };
   struct Robot
   {
-    double position = 0;  ///< [m]: root of the time mean of the position covariance's trace
-    double heading = 0;   ///< [rad]
+    Figure position;  ///< [m], over the steps, the start among them
+    Figure heading;   ///< [rad]
   };
   std::vector<Robot> robots;
   /// At the end, over the landmarks seen [m]; none if none was.
-  std::optional<double> map;
+  std::optional<Figure> map;
   /// Of each target's position, over the steps at which it is there, from the start if it is known,
   /// else from its first sighting [m]; absent without such a step.
-  std::map<int, double> targets;
+  std::map<int, Figure> targets;
 };
 
 /// Tichavský, Muravchik, Nehorai, "Posterior Cramér-Rao bounds for discrete-time nonlinear

@@ -37,12 +37,17 @@ struct MessageFigures
   std::optional<double> wrong;  ///< of these sightings, those that were not of this robot
 };
 
-/// The least root mean square errors that there can be in a run's world: see sim::PosteriorBound.
-/// Of robots and targets the mean over them, as their errors'.
+/// The least root mean square errors that there can be in a run's world, and those that the
+/// efficient filter makes with its noises: see sim::PosteriorBound.  Of robots and targets the mean
+/// over them, as their errors'.
 struct BoundFigures
 {
-  std::optional<double> robotPosition, robotHeading;  ///< [m, rad]
-  std::optional<double> map, target;                  ///< [m]
+  struct Figure
+  {
+    double bound = 0, efficient = 0;
+  };
+  std::optional<Figure> robotPosition, robotHeading;  ///< [m, rad]
+  std::optional<Figure> map, target;                  ///< [m]
 };
 
 /// The metrics of a run, in the order of metrics(); absent is what has no truth or does not apply.

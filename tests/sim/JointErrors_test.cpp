@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "JointCovariance.h"
+#include "JointErrors.h"
 
 namespace slamot::sim
 {
@@ -25,29 +25,41 @@ Matrix randomCovariance(math::RandomStream& random, int n)
   return L * L.transpose() + 0.1 * Matrix::Identity(n, n);
 }
 
+Eigen::VectorXd randomVector(math::RandomStream& random, int n)
+{
+  return randomMatrix(random, n, 1);
+}
+
 /// The information about all states at all times, from what is said of each.
 class Batch
 {
  public:
-  explicit Batch(int size) : information_(Matrix::Zero(size, size)) {}
-
-  /// A sum of jacobian times part, seen with a noise.
-  void say(const std::vector<JointCovariance::Part>& parts, const Matrix& noise)
+  explicit Batch(int size)
+      : information_(Matrix::Zero(size, size)), vector_(Eigen::VectorXd::Zero(size))
   {
-    Matrix H = Matrix::Zero(noise.rows(), information_.rows());
+  }
+
+  /// Of the errors: a sum of jacobian times part is a draw of a noise.
+  void say(const std::vector<JointErrors::Part>& parts, const Matrix& noiseCovariance,
+           const Eigen::VectorXd& noise)
+  {
+    Matrix H = Matrix::Zero(noise.size(), information_.rows());
     for (const auto& p : parts) H.middleCols(p.at, p.jacobian.cols()) += p.jacobian;
-    information_ += H.transpose() * noise.inverse() * H;
+    information_ += H.transpose() * noiseCovariance.inverse() * H;
+    vector_ += H.transpose() * noiseCovariance.inverse() * noise;
   }
   [[nodiscard]] Matrix covariance() const { return information_.inverse(); }
+  [[nodiscard]] Eigen::VectorXd errors() const { return covariance() * vector_; }
 
  private:
   Matrix information_;
+  Eigen::VectorXd vector_;
 };
 }  // namespace
 
 // Pose, move, landmark seen first, seen again, all with the matrices of no special kind: what is
 // left of the recursion must be what the inverse of the whole information says.
-TEST(JointCovariance, OfTwoStepsAndALandmarkIsTheInverseOfTheWholeInformation)
+TEST(JointErrors, OfTwoStepsAndALandmarkIsTheInverseOfTheWholeInformation)
 {
   math::RandomStream random{1};
   for (int trial = 0; trial < 20; ++trial)
@@ -59,31 +71,37 @@ TEST(JointCovariance, OfTwoStepsAndALandmarkIsTheInverseOfTheWholeInformation)
     const Eigen::Vector2d r0(0.3, 0.7), r1(0.2, 0.5);
     const Matrix R0 = r0.asDiagonal(), R1 = r1.asDiagonal();
 
-    JointCovariance recursion;
-    const int pose = recursion.add(P0);
+    const auto e0 = randomVector(random, 3), w = randomVector(random, 3);
+    const auto n0 = randomVector(random, 2), n1 = randomVector(random, 2);
+
+    JointErrors recursion;
+    const int pose = recursion.add(P0, e0);
     const Matrix inverse = Hm.inverse();
-    const int landmark =
-        recursion.addFrom({{pose, -inverse * Hx}}, inverse * R0 * inverse.transpose());
-    recursion.move(pose, F, Q);
-    recursion.observe({{{{pose, Gx}, {landmark, Gm}}, r1}});
+    const int landmark = recursion.addFrom({{pose, -inverse * Hx}},
+                                           inverse * R0 * inverse.transpose(), inverse * n0);
+    recursion.move(pose, F, Q, w);
+    recursion.observe({{{{pose, Gx}, {landmark, Gm}}, r1, n1}});
 
     Batch batch(8);  // pose at 0, pose at 1, landmark
-    batch.say({{0, I3}}, P0);
-    batch.say({{0, Hx}, {6, Hm}}, R0);
-    batch.say({{3, I3}, {0, -F}}, Q);
-    batch.say({{3, Gx}, {6, Gm}}, R1);
+    batch.say({{0, I3}}, P0, e0);
+    batch.say({{0, Hx}, {6, Hm}}, R0, n0);
+    batch.say({{3, I3}, {0, -F}}, Q, -w);
+    batch.say({{3, Gx}, {6, Gm}}, R1, n1);
     const Matrix expected = batch.covariance();
     const double scale = expected.cwiseAbs().maxCoeff();
     EXPECT_LT((recursion.block(pose, 3) - expected.block(3, 3, 3, 3)).norm(), 1e-10 * scale);
     EXPECT_LT((recursion.block(landmark, 2) - expected.block(6, 6, 2, 2)).norm(), 1e-10 * scale);
+    const Eigen::VectorXd errors = batch.errors();
+    for (int i = 0; i < 5; ++i)
+      EXPECT_NEAR(recursion.error(i), errors[3 + i], 1e-10 * errors.cwiseAbs().maxCoeff());
   }
 }
 
 // Many states of other sizes, moved and seen in a mixed order, against plain dense formulas.
-TEST(JointCovariance, EqualsTheDenseFormulas)
+TEST(JointErrors, EqualsTheDenseFormulas)
 {
   math::RandomStream random{2};
-  JointCovariance recursion;
+  JointErrors recursion;
   Matrix dense(0, 0);
   std::vector<std::pair<int, int>> states;  // first coordinate, size
   const auto grow = [&](const Matrix& cross, const Matrix& own)
@@ -102,14 +120,14 @@ TEST(JointCovariance, EqualsTheDenseFormulas)
     if (kind == 0)
     {
       const Matrix P = randomCovariance(random, size);
-      states.emplace_back(recursion.add(P), size);
+      states.emplace_back(recursion.add(P, Eigen::VectorXd::Zero(size)), size);
       grow(Matrix::Zero(size, dense.rows()), P);
     }
     else if (kind == 1)
     {
       const auto [at, n] = pick();
       const Matrix J = randomMatrix(random, 2, n), R = randomCovariance(random, 2);
-      states.emplace_back(recursion.addFrom({{at, J}}, R), 2);
+      states.emplace_back(recursion.addFrom({{at, J}}, R, Eigen::Vector2d::Zero()), 2);
       const Matrix cross = J * dense.middleRows(at, n);
       grow(cross, cross.middleCols(at, n) * J.transpose() + R);
     }
@@ -117,7 +135,7 @@ TEST(JointCovariance, EqualsTheDenseFormulas)
     {
       const auto [at, n] = pick();
       const Matrix F = randomMatrix(random, n, n), Q = randomCovariance(random, n);
-      recursion.move(at, F, Q);
+      recursion.move(at, F, Q, Eigen::VectorXd::Zero(n));
       Matrix all = Matrix::Identity(dense.rows(), dense.rows());
       all.block(at, at, n, n) = F;
       dense = (all * dense * all.transpose()).eval();
@@ -129,8 +147,9 @@ TEST(JointCovariance, EqualsTheDenseFormulas)
       const Matrix Ja = randomMatrix(random, 2, a.second), Jb = randomMatrix(random, 2, b.second);
       const Matrix Jc = randomMatrix(random, 1, c.second);
       const Eigen::Vector2d r(0.5, 2);
-      recursion.observe({{{{a.first, Ja}, {b.first, Jb}}, r},
-                         {{{c.first, Jc}}, Eigen::VectorXd::Constant(1, 0.3)}});
+      recursion.observe(
+          {{{{a.first, Ja}, {b.first, Jb}}, r, Eigen::Vector2d::Zero()},
+           {{{c.first, Jc}}, Eigen::VectorXd::Constant(1, 0.3), Eigen::VectorXd::Zero(1)}});
       Matrix H = Matrix::Zero(3, dense.rows());
       H.block(0, a.first, 2, a.second) = Ja;
       H.block(0, b.first, 2, b.second) += Jb;
@@ -146,15 +165,16 @@ TEST(JointCovariance, EqualsTheDenseFormulas)
   EXPECT_EQ(recursion.size(), dense.rows());
 }
 
-TEST(JointCovariance, AKnownLandmarkAddsTheInformationOfItsSighting)
+TEST(JointErrors, AKnownLandmarkAddsTheInformationOfItsSighting)
 {
   const Matrix P = Vector3(0.04, 0.09, 0.01).asDiagonal();
   Matrix J(2, 3);
   J << -0.6, -0.8, 0, 0.16, -0.12, -1;
   const Eigen::Vector2d r(0.01, 0.0004);
-  JointCovariance recursion;
-  const int pose = recursion.add(P), landmark = recursion.add(Matrix::Zero(2, 2));
-  recursion.observe({{{{pose, J}, {landmark, -J.leftCols(2)}}, r}});
+  JointErrors recursion;
+  const int pose = recursion.add(P, Vector3::Zero());
+  const int landmark = recursion.add(Matrix::Zero(2, 2), Vector2::Zero());
+  recursion.observe({{{{pose, J}, {landmark, -J.leftCols(2)}}, r, Vector2::Zero()}});
   const Matrix R = r.asDiagonal();
   const Matrix expected = (P.inverse() + J.transpose() * R.inverse() * J).inverse();
   EXPECT_LT((recursion.block(pose, 3) - expected).norm(), 1e-14);
