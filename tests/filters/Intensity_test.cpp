@@ -32,7 +32,7 @@ class IntensityMap : public ::testing::Test
     s.newDensity = 1e-4;
     s.detection = 0.9;
     s.clutter = 0.5;
-    s.intensity = {0.01, 1e-6, 4, 0, 1000, 0.5, 0.02, IntensityWeight::kCluster};
+    s.intensity = {{0.01, 1e-6, 4, 0, 1000, 0.5, 0.02}, IntensityWeight::kCluster};
     return s;
   }
 

@@ -29,7 +29,7 @@ class MixtureOfTargets : public ::testing::Test
  protected:
   static TargetSetSettings settings()
   {
-    return {0.9, 0.01, kSeen, 0.5, 1e-6, 4, 0, 100, 0.5, 0.02};
+    return {{0.01, 1e-6, 4, 0, 100, 0.5, 0.02}, 0.9, kSeen, 0.5};
   }
   std::uint64_t add(const Vector4& x, const Eigen::Matrix4d& P, double weight,
                     const std::string& label = "target", int id = core::kNoId)

@@ -6,7 +6,7 @@ namespace
 {
 rbpf::Preset presetOf(const std::string& name)
 {
-  const std::string ekf = "ekf", unscented = "unscented", sampled = "sampled";
+  const std::string unscented = "unscented", sampled = "sampled";
   if (name == "fastslam1") return {100, "motion", "nn"};
   if (name == "fastslam2") return {20, "informed", "nn"};
   if (name == "ufastslam") return {20, unscented, "nn", unscented, "landmarks", sampled};

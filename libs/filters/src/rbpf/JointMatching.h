@@ -32,7 +32,7 @@ struct PossiblePair
 class JointMatching
 {
  public:
-  static constexpr int kMostTries = 20000;  // about a millisecond
+  static constexpr int kMostTries = 20000;
 
   explicit JointMatching(const Settings& settings) : settings_(settings) {}
 

@@ -101,7 +101,7 @@ void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Mat
 }
 
 PoseUpdate LandmarkScan::gather(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
-                                const std::vector<std::int32_t>& matches) const
+                                std::vector<std::int32_t>& matches) const
 {
   PoseUpdate update;
   Matrix3 poseCov = root * root.transpose();
@@ -114,6 +114,11 @@ PoseUpdate LandmarkScan::gather(const maps::LandmarkMap& map, const Eye& eye, co
     const maps::Landmark* m = map.find(slot);
     Innovation o;
     if (!m || !innovateLandmark(from, j, *m, &poseCov, o, slots_.noise(slot))) continue;
+    if (settings_.isKnown() && withPose(o, poseCov).d2 > settings_.gates.outer)
+    {
+      matches[j] = kRejected;
+      continue;
+    }
     update.add(shifted(o, -shift));
     if (!settings_.sequential) continue;
     const PoseUpdate::Result pose = update.solve(root);

@@ -63,9 +63,9 @@ class LandmarkScan
   /// Whether matchTracks() is to be used in place of match().
   [[nodiscard]] bool hasTracks() const { return tracks_.isOn(); }
 
-  /// What the matched sightings tell of a pose with prior N(eye, root rootᵀ).
+  /// What the matched sightings tell of a pose with prior N(eye, root rootᵀ).  Rejects as weigh().
   [[nodiscard]] PoseUpdate gather(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
-                                  const std::vector<std::int32_t>& matches) const;
+                                  std::vector<std::int32_t>& matches) const;
 
   /// log weight of the matched sightings and of those unmatched, at a pose, or linearised at the
   /// mean of one that is not sampled yet: `update`, if given, then takes in the sightings. A

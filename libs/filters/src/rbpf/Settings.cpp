@@ -33,17 +33,10 @@ void readResampling(core::Params& p, Settings& s)
 IntensitySettings readIntensity(core::Params& p, double detection)
 {
   IntensitySettings s{};
-  s.birthWeight = p.positive("birth_weight", 0.01);
-  s.pruneWeight = p.positive("prune_weight", 1e-4);
-  // Within this distance, a Gaussian's own points lie with a chance of 1 - exp(-U/2).
-  s.mergeDistance2 = p.positive("merge_distance2", 4.0);
-  s.floorVar = std::pow(p.nonNegative("merge_floor_std_m", 0.1), 2);
-  s.mostComponents = p.integer("most_components", 1, 10000000, 20000);
-  s.confirm = p.positive("confirm_weight", 0.5);
-  // Lower than what one miss leaves of a sure component.
-  s.unconfirm = p.positive("unconfirm_weight", 0.25 * (1 - detection));
-  if (s.unconfirm >= s.confirm)
-    p.fail("unconfirm_weight", "is not below confirm_weight", "make it smaller");
+  // Within a squared distance U, a Gaussian's own points lie with a chance of 1 - exp(-U/2).  One
+  // miss leaves more of a sure component than makes it no feature.
+  static_cast<MixtureSettings&>(s) =
+      MixtureSettings::from(p, "", {0.01, 1e-4, 4, 0.1 * 0.1, 20000, 0.5, 0.25 * (1 - detection)});
   s.weight = chosen<IntensityWeight>(p, "particle_weight",
                                      {"cluster", "single-feature", "empty-set"}, "cluster");
   return s;
@@ -51,26 +44,17 @@ IntensitySettings readIntensity(core::Params& p, double detection)
 
 std::optional<TargetSetSettings> readTargetSet(core::Params& p)
 {
-  p.allowUnused({"target_survival", "target_birth_weight", "target_detection_probability",
-                 "target_clutter_per_scan", "target_prune_weight", "target_merge_distance2",
-                 "target_merge_floor_std_m", "target_most_components", "target_confirm_weight",
-                 "target_unconfirm_weight"});
+  p.allowUnused(MixtureSettings::keys("target_"));
+  p.allowUnused({"target_survival", "target_detection_probability", "target_clutter_per_scan"});
   if (p.choice("targets", {"tracks", "gm-phd"}, "tracks") == "tracks") return {};
   TargetSetSettings s{};
   s.survival = p.inRange("target_survival", 1e-6, 1, 0.99);
-  s.birthWeight = p.positive("target_birth_weight", 0.01);
   s.detection = p.inRange("target_detection_probability", 1e-6, 0.999, 0.95);
   s.clutter = p.positive("target_clutter_per_scan", 0.1);
-  s.pruneWeight = p.positive("target_prune_weight", 1e-4);
-  s.mergeDistance2 = p.positive("target_merge_distance2", 4.0);
-  s.floorVar = std::pow(p.nonNegative("target_merge_floor_std_m", 0.05), 2);
-  s.mostComponents = p.integer("target_most_components", 1, 100000, 100);
   // A target stays though two misses in a row leave little of its weight, since it is more likely
   // there than not; so that it must be all but sure before it is one.
-  s.confirm = p.positive("target_confirm_weight", 0.9);
-  s.unconfirm = p.positive("target_unconfirm_weight", 0.25 * std::pow(1 - s.detection, 2));
-  if (s.unconfirm >= s.confirm)
-    p.fail("target_unconfirm_weight", "is not below target_confirm_weight", "make it smaller");
+  static_cast<MixtureSettings&>(s) = MixtureSettings::from(
+      p, "target_", {0.01, 1e-4, 4, 0.05 * 0.05, 100, 0.9, 0.25 * std::pow(1 - s.detection, 2)});
   return s;
 }
 
@@ -90,6 +74,33 @@ void checkTogether(const core::Params& p, const Settings& s)
     p.fail("weight", "marginal is not for proposal_update = sequential", "set sampled");
 }
 }  // namespace
+
+MixtureSettings MixtureSettings::from(core::Params& p, const std::string& prefix,
+                                      const MixtureSettings& otherwise)
+{
+  MixtureSettings s{};
+  s.birthWeight = p.positive(prefix + "birth_weight", otherwise.birthWeight);
+  s.pruneWeight = p.positive(prefix + "prune_weight", otherwise.pruneWeight);
+  s.mergeDistance2 = p.positive(prefix + "merge_distance2", otherwise.mergeDistance2);
+  s.floorVar =
+      std::pow(p.nonNegative(prefix + "merge_floor_std_m", std::sqrt(otherwise.floorVar)), 2);
+  s.mostComponents = p.integer(prefix + "most_components", 1, 1000000, otherwise.mostComponents);
+  s.confirm = p.positive(prefix + "confirm_weight", otherwise.confirm);
+  s.unconfirm = p.positive(prefix + "unconfirm_weight", otherwise.unconfirm);
+  if (s.unconfirm >= s.confirm)
+    p.fail(prefix + "unconfirm_weight", "is not below " + prefix + "confirm_weight",
+           "make it smaller");
+  return s;
+}
+
+std::vector<std::string> MixtureSettings::keys(const std::string& prefix)
+{
+  std::vector<std::string> out;
+  for (const char* key : {"birth_weight", "prune_weight", "merge_distance2", "merge_floor_std_m",
+                          "most_components", "confirm_weight", "unconfirm_weight"})
+    out.push_back(prefix + key);
+  return out;
+}
 
 Settings Settings::from(core::Params& p, const Preset& preset)
 {
@@ -113,6 +124,9 @@ Settings Settings::from(core::Params& p, const Preset& preset)
   s.confirmSightings = p.integer("confirm_sightings", 1, 1000000, s.isKnown() || intensity ? 1 : 3);
   s.detection = p.inRange("detection_probability", 0, 0.999, intensity ? 0.95 : 0.0);
   s.clutter = p.nonNegative("clutter_per_scan", intensity ? 0.1 : 0.0);
+  // Known, so that --set can change the kind of map.
+  p.allowUnused(MixtureSettings::keys(""));
+  p.allowUnused({"particle_weight"});
   if (intensity) s.intensity = readIntensity(p, s.detection);
   s.targetSet = readTargetSet(p);
   checkTogether(p, s);

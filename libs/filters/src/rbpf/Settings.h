@@ -29,30 +29,35 @@ enum class IntensityWeight
   kEmptySet
 };
 
-/// Keys of a map that is a GM-PHD intensity.
-struct IntensitySettings
+/// What mixtures of Gaussians are kept by, as landmarks' and targets' intensities.
+struct MixtureSettings
 {
   double birthWeight;         ///< of a component born from a sighting
   double pruneWeight;         ///< components below are dropped
   double mergeDistance2;      ///< squared Mahalanobis distance within which components are merged
-  double floorVar;            ///< added to their covariances for that distance [m²]
-  int mostComponents;         ///< of a particle's map
-  double confirm, unconfirm;  ///< weights at which a component becomes a feature, and no more is
+  double floorVar;            ///< added to their covariances for that distance [m², (m/s)², ...]
+  int mostComponents;         ///< of a particle
+  double confirm, unconfirm;  ///< expected number at which one is reported, and no more is
+
+  /// \param prefix of the keys.
+  /// \param otherwise what holds where a key is absent.
+  static MixtureSettings from(core::Params& p, const std::string& prefix,
+                              const MixtureSettings& otherwise);
+  static std::vector<std::string> keys(const std::string& prefix);
+};
+
+/// Keys of a map that is a GM-PHD intensity.
+struct IntensitySettings : MixtureSettings
+{
   IntensityWeight weight;
 };
 
 /// Keys of moving targets that are a GM-PHD intensity.
-struct TargetSetSettings
+struct TargetSetSettings : MixtureSettings
 {
-  double survival;            ///< chance that a target is still there a second later
-  double birthWeight;         ///< of a component born from a blob
-  double detection;           ///< chance to see a target in view
-  double clutter;             ///< false blobs a scan, mean
-  double pruneWeight;         ///< components below are dropped
-  double mergeDistance2;      ///< squared Mahalanobis distance within which components are merged
-  double floorVar;            ///< added to their covariances for that distance [m², (m/s)², ...]
-  int mostComponents;         ///< of a particle
-  double confirm, unconfirm;  ///< existence at which a target is reported, and no more is
+  double survival;   ///< chance that a target is still there a second later
+  double detection;  ///< chance to see a target in view
+  double clutter;    ///< false blobs a scan, mean
 };
 
 /// What the members of the family set when the configuration does not.  Absent: a key without

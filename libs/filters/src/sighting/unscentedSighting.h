@@ -10,17 +10,53 @@
 // gives the same moments to the same order, for five points instead of fifteen.
 namespace slamot::filters
 {
+/// Range and bearing of d, less those of its mean, by the unscented transform: d lies `r0` away,
+/// with covariance (along, both; both, across) along the line of sight and across it.  Whatever the
+/// map's axes, the sigma points are thus the same.  Julier and Uhlmann 2004, with kurtosis matched
+/// (n + kappa = 3).
+struct UnscentedPolar
+{
+  double meanR, meanB;
+  double rAlong, rAcross, bAlong, bAcross;  ///< slopes of the regression on d
+  double varR, varB, covRB;                 ///< what the regression leaves over
+
+  UnscentedPolar(double r0, double along, double both, double across)
+  {
+    constexpr double kSpread = 1.7320508075688772, w = 1.0 / 6, half = 0.5 / kSpread;
+    const double l11 = std::sqrt(along), l21 = both / l11, l22 = std::sqrt(across - l21 * l21);
+    // Bearings are taken relative to the mean of d, so that none of them wraps.
+    const auto expected = [&](double ex, double ey, double& r, double& b)
+    {
+      r = std::sqrt((r0 + ex) * (r0 + ex) + ey * ey) - r0;
+      b = smallAngle(ey, r0 + ex);
+    };
+    double ra, ba, rb, bb, rc, bc, rd, bd;
+    expected(kSpread * l11, kSpread * l21, ra, ba);
+    expected(-kSpread * l11, -kSpread * l21, rb, bb);
+    expected(0, kSpread * l22, rc, bc);
+    expected(0, -kSpread * l22, rd, bd);
+    meanR = w * (ra + rb + rc + rd);
+    meanB = w * (ba + bb + bc + bd);
+    const double gr1 = half * (ra - rb), gr2 = half * (rc - rd);  // slopes along the columns
+    const double gb1 = half * (ba - bb), gb2 = half * (bc - bd);
+    rAcross = gr2 / l22;
+    rAlong = (gr1 - rAcross * l21) / l11;
+    bAcross = gb2 / l22;
+    bAlong = (gb1 - bAcross * l21) / l11;
+    varR = w * (ra * ra + rb * rb + rc * rc + rd * rd) - meanR * meanR - gr1 * gr1 - gr2 * gr2;
+    varB = w * (ba * ba + bb * bb + bc * bc + bd * bd) - meanB * meanB - gb1 * gb1 - gb2 * gb2;
+    covRB = w * (ra * ba + rb * bb + rc * bc + rd * bd) - meanR * meanB - gr1 * gb1 - gr2 * gb2;
+  }
+};
+
 /// innovate() by statistical linear regression over d = point - robot, whose covariance is the
 /// point's plus the pose's (zero for a sampled pose): H becomes the regression's slope, nu is taken
-/// from the transform's mean, and S gains what the regression leaves over.  Bearings are taken
-/// relative to the central point, so that none of them wraps.  Julier and Uhlmann 2004, with
-/// kurtosis matched (n + kappa = 3).  Where the sigma points would surround the robot, within
-/// four deviations, it is innovate().
+/// from the transform's mean, and S gains what the regression leaves over.  Where the sigma points
+/// would surround the robot, within four deviations, it is innovate().
 inline bool innovateUnscented(const Eye& eye, const Ray& z, double mx, double my, double pxx,
                               double pxy, double pyy, const Matrix3* poseCov, Innovation& o,
                               double noise = 1)
 {
-  constexpr double kSpread = 1.7320508075688772;  // sqrt(n + kappa)
   constexpr double kSurround = 16, kFlat = 1e-12;
   const double dx = mx - eye.x, dy = my - eye.y, q = dx * dx + dy * dy;
   const double dxx = poseCov ? pxx + (*poseCov)(0, 0) : pxx;
@@ -29,51 +65,24 @@ inline bool innovateUnscented(const Eye& eye, const Ray& z, double mx, double my
   if (!z.hasRange || q < kSurround * (dxx + dyy + z.varRange) || !(dxx * dyy - dxy * dxy > kFlat))
     return innovate(eye, z, mx, my, pxx, pxy, pyy, o, noise);
 
-  // Along the line of sight and across it: whatever the map's axes, the sigma points are the same.
   const double r0 = std::sqrt(q), u = dx / r0, v = dy / r0;
-  const double along = u * u * dxx + 2 * u * v * dxy + v * v * dyy;
-  const double both = u * v * (dyy - dxx) + (u * u - v * v) * dxy;
-  const double across = v * v * dxx - 2 * u * v * dxy + u * u * dyy;
-  const double l11 = std::sqrt(along), l21 = both / l11, l22 = std::sqrt(across - l21 * l21);
-  // Range and bearing of d plus a column, less those of d.
-  const auto expected = [&](double ex, double ey, double& r, double& b)
-  {
-    r = std::sqrt((r0 + ex) * (r0 + ex) + ey * ey) - r0;
-    b = smallAngle(ey, r0 + ex);
-  };
-  double ra, ba, rb, bb, rc, bc, rd, bd;
-  expected(kSpread * l11, kSpread * l21, ra, ba);
-  expected(-kSpread * l11, -kSpread * l21, rb, bb);
-  expected(0, kSpread * l22, rc, bc);
-  expected(0, -kSpread * l22, rd, bd);
-  constexpr double w = 1.0 / 6, half = 0.5 / kSpread;
-  const double meanR = w * (ra + rb + rc + rd), meanB = w * (ba + bb + bc + bd);
-  // Slopes along the columns, [g1 g2] = H L, then in the map's axes.
-  const double gr1 = half * (ra - rb), gr2 = half * (rc - rd);
-  const double gb1 = half * (ba - bb), gb2 = half * (bc - bd);
-  const double rAcross = gr2 / l22, rAlong = (gr1 - rAcross * l21) / l11;
-  const double bAcross = gb2 / l22, bAlong = (gb1 - bAcross * l21) / l11;
-  o.h11 = u * rAlong - v * rAcross;
-  o.h12 = v * rAlong + u * rAcross;
-  o.h21 = u * bAlong - v * bAcross;
-  o.h22 = v * bAlong + u * bAcross;
-  // What is not linear: second moments less the regression's.
-  const double vr =
-      w * (ra * ra + rb * rb + rc * rc + rd * rd) - meanR * meanR - gr1 * gr1 - gr2 * gr2;
-  const double vb =
-      w * (ba * ba + bb * bb + bc * bc + bd * bd) - meanB * meanB - gb1 * gb1 - gb2 * gb2;
-  const double vrb =
-      w * (ra * ba + rb * bb + rc * bc + rd * bd) - meanR * meanB - gr1 * gb1 - gr2 * gb2;
+  const UnscentedPolar t(r0, u * u * dxx + 2 * u * v * dxy + v * v * dyy,
+                         u * v * (dyy - dxx) + (u * u - v * v) * dxy,
+                         v * v * dxx - 2 * u * v * dxy + u * u * dyy);
+  o.h11 = u * t.rAlong - v * t.rAcross;
+  o.h12 = v * t.rAlong + u * t.rAcross;
+  o.h21 = u * t.bAlong - v * t.bAcross;
+  o.h22 = v * t.bAlong + u * t.bAcross;
   o.turnR = 0;
   o.turnB = -1;
   const double c = eye.c * z.cosB - eye.s * z.sinB, s = eye.s * z.cosB + eye.c * z.sinB;
-  o.nuR = z.range - r0 - meanR;
-  o.nuB = -smallAngle(c * dy - s * dx, c * dx + s * dy) - meanB;
+  o.nuR = z.range - r0 - t.meanR;
+  o.nuB = -smallAngle(c * dy - s * dx, c * dx + s * dy) - t.meanB;
   const double a1 = pxx * o.h11 + pxy * o.h12, a2 = pxy * o.h11 + pyy * o.h12;
   const double b1 = pxx * o.h21 + pxy * o.h22, b2 = pxy * o.h21 + pyy * o.h22;
-  o.s11 = o.h11 * a1 + o.h12 * a2 + vr + noise * z.varRange;
-  o.s12 = o.h21 * a1 + o.h22 * a2 + vrb;
-  o.s22 = o.h21 * b1 + o.h22 * b2 + vb + noise * z.varBearing;
+  o.s11 = o.h11 * a1 + o.h12 * a2 + t.varR + noise * z.varRange;
+  o.s12 = o.h21 * a1 + o.h22 * a2 + t.covRB;
+  o.s22 = o.h21 * b1 + o.h22 * b2 + t.varB + noise * z.varBearing;
   o.det = o.s11 * o.s22 - o.s12 * o.s12;
   o.d2 = (o.s22 * o.nuR * o.nuR - 2 * o.s12 * o.nuR * o.nuB + o.s11 * o.nuB * o.nuB) / o.det;
   return true;
