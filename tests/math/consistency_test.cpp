@@ -4,16 +4,14 @@
 #include <slamot/math/intersection.h>
 #include <slamot/math/random.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <ostream>
+
+#include "Dense.h"
 
 namespace slamot::math
 {
 namespace
 {
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 enum class TeamRule
@@ -38,17 +36,9 @@ std::ostream& operator<<(std::ostream& out, const TeamPlan& p)
              << " omega " << p.omega.value_or(-1);
 }
 
-// Largest eigenvalue of the true covariance against the claimed one.
-double ratio(const MatrixXd& truth, const MatrixXd& claimed)
+Dense byPose(double dx, double dy)
 {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(truth, claimed,
-                                                                 Eigen::EigenvaluesOnly);
-  return eigen.info() == Eigen::Success ? eigen.eigenvalues().maxCoeff() : 1e9;
-}
-
-Eigen::Matrix<double, 2, 3> byPose(double dx, double dy)
-{
-  Eigen::Matrix<double, 2, 3> F;
+  Dense F(2, 3);
   F << 1, 0, -dy, 0, 1, dx;
   return F;
 }
@@ -58,17 +48,18 @@ Eigen::Matrix<double, 2, 3> byPose(double dx, double dy)
 class LinearTeam
 {
  public:
-  explicit LinearTeam(const TeamPlan& plan) : plan_(plan), truth_(MatrixXd::Zero(size(), size()))
+  explicit LinearTeam(const TeamPlan& plan) : plan_(plan), truth_(zeros(size(), size()))
   {
-    MatrixXd P = MatrixXd::Identity(kState, kState) * 400;
-    P.topLeftCorner(3, 3) = Eigen::Vector3d(0.01, 0.01, 1e-4).asDiagonal();
-    P.block(kTarget, kTarget, 4, 4) = Eigen::Vector4d(4, 4, 0.3, 0.3).asDiagonal();
+    Dense P = 400.0 * identity(kState);
+    P.topLeftCorner(3, 3) = diagonal({0.01, 0.01, 1e-4});
+    P.block(kTarget, kTarget, 4, 4) = diagonal({4, 4, 0.3, 0.3});
     claimed_.assign(plan.agents, P);
     for (int i = 0; i < plan.agents; ++i)
       for (int k = 0; k < plan.agents; ++k)
       {
-        block(i, k).block(kTarget, kTarget, 4, 4) = P.block(kTarget, kTarget, 4, 4);
-        if (i == k) block(i, k) = P;
+        Dense common = zeros(kState, kState);
+        common.block(kTarget, kTarget, 4, 4) = P.block(kTarget, kTarget, 4, 4);
+        setTruth(i, k, i == k ? P : common);
       }
   }
 
@@ -92,29 +83,33 @@ class LinearTeam
   static constexpr int kTarget = 3, kMap = 7, kLandmarks = 4, kState = kMap + 2 * kLandmarks;
 
   [[nodiscard]] int size() const { return kState * plan_.agents; }
-  Eigen::Block<MatrixXd> block(int i, int k)
+  [[nodiscard]] Dense truth(int i, int k) const
   {
     return truth_.block(kState * i, kState * k, kState, kState);
+  }
+  void setTruth(int i, int k, const Dense& P)
+  {
+    truth_.block(kState * i, kState * k, kState, kState) = P;
   }
 
   void check()
   {
     for (int i = 0; i < plan_.agents; ++i)
-      worst_ = std::max(worst_, ratio(block(i, i), claimed_[i]));
+      worst_ = std::max(worst_, largestRatio(truth(i, i), claimed_[i]));
   }
 
   void predict()
   {
-    MatrixXd F = MatrixXd::Identity(kState, kState), common = 0 * F, own = 0 * F;
+    Dense F = identity(kState), common = zeros(kState, kState), own = common;
     F(3, 5) = F(4, 6) = 1;
     F(0, 2) = 0.5;
-    common.diagonal().segment(kTarget, 4) << 0.01, 0.01, 0.02, 0.02;
-    own.diagonal().head(3) << 0.01, 0.02, 1e-4;
+    common.block(kTarget, kTarget, 4, 4) = diagonal({0.01, 0.01, 0.02, 0.02});
+    own.topLeftCorner(3, 3) = diagonal({0.01, 0.02, 1e-4});
     for (int i = 0; i < plan_.agents; ++i)
     {
       for (int k = 0; k < plan_.agents; ++k)
-        block(i, k) = F * block(i, k).eval() * F.transpose() + common + (i == k ? own : 0 * own);
-      claimed_[i] = F * claimed_[i].eval() * F.transpose() + common + own;
+        setTruth(i, k, F * truth(i, k) * F.transpose() + (i == k ? common + own : common));
+      claimed_[i] = F * claimed_[i] * F.transpose() + common + own;
     }
   }
 
@@ -126,90 +121,90 @@ class LinearTeam
   }
   void correct(int i, int place, double dx, double dy)
   {
-    MatrixXd H = MatrixXd::Zero(2, kState);
+    Dense H = zeros(2, kState);
     H.leftCols(3) = -byPose(dx, dy);
     H.block(0, place, 2, 2).setIdentity();
-    const MatrixXd R = Eigen::Vector2d(0.04, 0.09).asDiagonal();
-    MatrixXd& P = claimed_[i];
-    const MatrixXd K = P * H.transpose() * (H * P * H.transpose() + R).inverse();
-    MatrixXd M = MatrixXd::Identity(size(), size());
-    M.block(kState * i, kState * i, kState, kState) -= K * H;
-    truth_ = (M * truth_ * M.transpose()).eval();
-    block(i, i) += K * R * K.transpose();
+    const Dense R = diagonal({0.04, 0.09});
+    Dense& P = claimed_[i];
+    const Dense K = P * H.transpose() * (H * P * H.transpose() + R).inverse();
+    const Dense rest = identity(kState) - K * H;
+    for (int k = 0; k < plan_.agents; ++k)
+    {
+      if (k == i) continue;
+      setTruth(i, k, rest * truth(i, k));
+      setTruth(k, i, truth(i, k).transpose());
+    }
+    setTruth(i, i, rest * truth(i, i) * rest.transpose() + K * R * K.transpose());
     P -= K * H * P;
-    P = (0.5 * (P + P.transpose())).eval();
+    P = 0.5 * (P + P.transpose());
   }
 
   // All tell all at once what they know before: the place where they see the other, and the target.
   void exchange(int t)
   {
-    const std::vector<MatrixXd> before = claimed_;
-    MatrixXd M = MatrixXd::Identity(size(), size()), noise = 0 * M;
+    const std::vector<Dense> before = claimed_;
+    Dense M = identity(size()), noise = zeros(size(), size());
     for (int i = 0; i < plan_.agents; ++i)
       for (int k = 0; k < plan_.agents; ++k)
       {
         if (i == k) continue;
-        MatrixXd F = MatrixXd::Zero(6, kState);
+        Dense F = zeros(6, kState), H = F, own = zeros(6, 6);
         F.topLeftCorner(2, 3) = byPose(5 + i - k, 3 - t % 6);
         F.block(2, kTarget, 4, 4).setIdentity();
-        MatrixXd own = MatrixXd::Zero(6, 6);
-        own.topLeftCorner(2, 2) = Eigen::Vector2d(0.05, 0.15).asDiagonal();
-        const MatrixXd K = take(i, F * before[k] * F.transpose() + own, own);
-        MatrixXd H = MatrixXd::Zero(6, kState);
+        own.topLeftCorner(2, 2) = diagonal({0.05, 0.15});
+        const Dense K = take(i, F * before[k] * F.transpose() + own, own);
         H.topLeftCorner(2, 2).setIdentity();
         H.block(2, kTarget, 4, 4).setIdentity();
-        const MatrixXd rest = MatrixXd::Identity(kState, kState) - K * H;
+        const Dense rest = identity(kState) - K * H;
         auto rows = M.middleRows(kState * i, kState);
-        rows = (rest * rows).eval();
+        rows = rest * Dense(rows);
         rows.middleCols(kState * k, kState) += K * F;
         auto own_i = noise.block(kState * i, kState * i, kState, kState);
-        own_i = (rest * own_i * rest.transpose()).eval() + K * own * K.transpose();
+        own_i = rest * Dense(own_i) * rest.transpose() + K * own * K.transpose();
       }
-    truth_ = (M * truth_ * M.transpose()).eval() + noise;
+    truth_ = M * truth_ * M.transpose() + noise;
   }
 
   // Changes agent i's claimed covariance; returns the gain.
-  MatrixXd take(int i, const MatrixXd& B, const MatrixXd& own)
+  Dense take(int i, const Dense& B, const Dense& own)
   {
     if (plan_.rule == TeamRule::kPaper) return takePaper(i, B);
     const Intersection rule = plan_.rule == TeamRule::kCi        ? Intersection::kCovariance
                               : plan_.rule == TeamRule::kSplitCi ? Intersection::kSplit
                                                                  : Intersection::kInverse;
-    MatrixXd& P = claimed_[i];
-    MatrixXd W(kState, 6);
+    Dense& P = claimed_[i];
+    Dense W(kState, 6), A(6, 6), E = identity(kState);
     W << P.leftCols(2), P.middleCols(kTarget, 4);
-    MatrixXd A(6, 6);
     A << W.topRows(2), W.middleRows(kTarget, 4);
-    VectorXd E = VectorXd::Ones(kState);
-    E[2] = 5;                        // [m]: the heading's lever
-    E.segment(kTarget + 2, 2) *= 0;  // velocities don't count
-    const IntersectionCriterion criterion{(E.asDiagonal() * P * E.asDiagonal()).trace(),
-                                          W.transpose() * E.cwiseAbs2().asDiagonal() * W};
+    E(2, 2) = 5;                                        // [m]: the heading's lever
+    E.block(kTarget + 2, kTarget + 2, 2, 2).setZero();  // velocities don't count
+    const IntersectionCriterion criterion{(E * P * E).trace(), W.transpose() * E * E * W};
     IntersectionUpdate u;
-    MatrixXd K(kState, 6);
+    Dense K(kState, 6);
     for (int c = 0; c < 6; ++c)  // the gain is linear in the innovation
     {
       u = intersect(rule, A, VectorXd::Unit(6, c), B, own, criterion, plan_.omega);
-      K.col(c) = W * u.gain;
+      K.col(c) = W * Dense(u.gain);
     }
     fused_ += u.pays;
-    P = (u.scale * (P - W * u.reduction * W.transpose())).eval();
+    P = u.scale * (P - W * Dense(u.reduction) * W.transpose());
     return K;
   }
 
-  MatrixXd takePaper(int i, const MatrixXd& B)
+  Dense takePaper(int i, const Dense& B)
   {
-    MatrixXd& P = claimed_[i];
-    MatrixXd K = MatrixXd::Zero(kState, 6);
+    Dense& P = claimed_[i];
+    Dense K = zeros(kState, 6);
     const int first[] = {0, kTarget}, row[] = {0, 2}, count[] = {2, 4};
     for (int b = 0; b < 2; ++b)
     {
       const int at = first[b], m = count[b];
       const PaperBlock block = paperBlock(P.block(at, at, m, m), VectorXd::Zero(m),
                                           B.block(row[b], row[b], m, m), plan_.omega);
-      K.block(at, row[b], m, m) = MatrixXd::Identity(m, m) - block.crossFactor;
-      P.middleRows(at, m) = (block.crossFactor * P.middleRows(at, m)).eval();
-      P.middleCols(at, m) = P.middleRows(at, m).transpose().eval();
+      const Dense cross = block.crossFactor;
+      K.block(at, row[b], m, m) = identity(m) - cross;
+      P.middleRows(at, m) = cross * Dense(P.middleRows(at, m));
+      P.middleCols(at, m) = Dense(P.middleRows(at, m)).transpose();
       P.block(at, at, m, m) = block.cov;
     }
     ++fused_;
@@ -217,8 +212,8 @@ class LinearTeam
   }
 
   TeamPlan plan_;
-  std::vector<MatrixXd> claimed_;
-  MatrixXd truth_;
+  std::vector<Dense> claimed_;
+  Dense truth_;
   double worst_ = 0;
   int fused_ = 0;
 };
@@ -280,20 +275,15 @@ TEST(Intersection, StaysConsistentAtEveryCorrelation)
   for (int i = 0; i < 3000; ++i)
   {
     const int n = 5, m = 1 + i % n;
-    const auto root = [&random](int k)
-    {
-      MatrixXd A(k, k);
-      for (double& a : A.reshaped()) a = random.normal();
-      return A;
-    };
     // Errors (e, f + g): e and f share a noise up to the last bit, g is independent.
-    const MatrixXd rootP = root(n), rootF = root(m), rootG = 0.5 * root(m), H = root(n).topRows(m);
-    const MatrixXd U = root(n).householderQr().householderQ();
+    const Dense rootP = draw(random, n, n), rootF = draw(random, m, m),
+                rootG = 0.5 * draw(random, m, m), H = draw(random, n, n).topRows(m);
+    const Dense U = orthonormal(draw(random, n, n));
     const double bound = random.uniform() < 0.5 ? 1 : random.uniform();
-    const MatrixXd P = rootP * rootP.transpose(), own = rootG * rootG.transpose();
-    const MatrixXd B = rootF * rootF.transpose() + own;
-    const MatrixXd cross = bound * rootP * U.leftCols(m) * rootF.transpose();
-    const MatrixXd W = P * H.transpose();
+    const Dense P = rootP * rootP.transpose(), own = rootG * rootG.transpose();
+    const Dense B = rootF * rootF.transpose() + own;
+    const Dense cross = bound * rootP * Dense(U.leftCols(m)) * rootF.transpose();
+    const Dense W = P * H.transpose();
     const IntersectionCriterion criterion{P.trace(), W.transpose() * W};
     for (const Intersection rule :
          {Intersection::kCovariance, Intersection::kSplit, Intersection::kInverse})
@@ -301,16 +291,15 @@ TEST(Intersection, StaysConsistentAtEveryCorrelation)
       const std::optional<double> omega =
           i % 2 ? std::optional<double>(random.uniform(0.05, 0.95)) : std::nullopt;
       IntersectionUpdate u;
-      MatrixXd K(n, m);
+      Dense K(n, m);
       for (int c = 0; c < m; ++c)
       {
         u = intersect(rule, H * W, VectorXd::Unit(m, c), B, own, criterion, omega);
-        K.col(c) = W * u.gain;
+        K.col(c) = W * Dense(u.gain);
       }
-      const MatrixXd M = MatrixXd::Identity(n, n) - K * H, mixed = M * cross * K.transpose();
-      const MatrixXd truth =
-          M * P * M.transpose() + K * B * K.transpose() + mixed + mixed.transpose();
-      const double r = ratio(truth, u.scale * (P - W * u.reduction * W.transpose()));
+      const Dense M = identity(n) - K * H, mixed = M * cross * K.transpose();
+      const Dense truth = M * P * M.transpose() + K * B * K.transpose() + mixed + mixed.transpose();
+      const double r = largestRatio(truth, u.scale * (P - W * Dense(u.reduction) * W.transpose()));
       if (rule == Intersection::kInverse)
         worstInverse = std::max(worstInverse, r);
       else

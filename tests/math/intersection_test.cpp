@@ -3,36 +3,27 @@
 #include <slamot/math/intersection.h>
 #include <slamot/math/random.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <limits>
+
+#include "Dense.h"
 
 namespace slamot::math
 {
 namespace
 {
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd drawMatrix(RandomStream& random, int rows, int cols)
+Dense drawCovariance(RandomStream& random, int n)
 {
-  MatrixXd A(rows, cols);
-  for (double& a : A.reshaped()) a = random.normal();
-  return A;
-}
-
-MatrixXd drawCovariance(RandomStream& random, int n)
-{
-  const MatrixXd A = drawMatrix(random, n, n + 2);
-  const VectorXd scale = (0.5 * drawMatrix(random, n, 1)).array().exp().matrix();
-  return scale.asDiagonal() * (A * A.transpose() / n) * scale.asDiagonal();
+  Dense A = draw(random, n, n + 2);
+  for (int i = 0; i < n; ++i) A.row(i) *= std::exp(0.5 * random.normal());
+  return A * A.transpose() / double(n);
 }
 
 // An estimate and what it is told, with nothing special about them.
 struct Case
 {
-  MatrixXd P, H, B, independent, E;
+  Dense P, H, B, independent, E;
   VectorXd nu;
 
   explicit Case(RandomStream& random)
@@ -40,15 +31,15 @@ struct Case
     const int n = 3 + static_cast<int>(random.uniform(0, 8));
     const int m = 1 + static_cast<int>(random.uniform(0, std::min(n, kMaxBlock)));
     P = drawCovariance(random, n);
-    H = drawMatrix(random, m, n);
-    independent = drawMatrix(random, m, 2);
-    independent = (independent * independent.transpose()).eval();
+    H = draw(random, m, n);
+    independent = draw(random, m, 2);
+    independent = independent * independent.transpose();
     B = std::exp(random.normal()) * drawCovariance(random, m) + independent;
-    E = MatrixXd::Identity(n, n).topRows(2 + static_cast<int>(random.uniform(0, n - 1)));
-    nu = drawMatrix(random, m, 1);
+    E = identity(n).topRows(2 + static_cast<int>(random.uniform(0, n - 1)));
+    nu = draw(random, m, 1);
   }
 
-  [[nodiscard]] MatrixXd W() const { return P * H.transpose(); }
+  [[nodiscard]] Dense W() const { return P * H.transpose(); }
   [[nodiscard]] IntersectionCriterion criterion() const
   {
     return {(E * P * E.transpose()).trace(), W().transpose() * E.transpose() * E * W()};
@@ -57,10 +48,11 @@ struct Case
   {
     return intersect(rule, H * W(), nu, B, independent, criterion(), omega);
   }
-  [[nodiscard]] MatrixXd cov(const IntersectionUpdate& u) const
+  [[nodiscard]] Dense cov(const IntersectionUpdate& u) const
   {
-    return u.scale * (P - W() * u.reduction * W().transpose());
+    return u.scale * (P - W() * Dense(u.reduction) * W().transpose());
   }
+  [[nodiscard]] Dense shift(const IntersectionUpdate& u) const { return W() * Dense(u.gain); }
   [[nodiscard]] double score(const IntersectionUpdate& u) const
   {
     return (E * cov(u) * E.transpose()).trace();
@@ -70,34 +62,29 @@ struct Case
 constexpr Intersection kRules[] = {Intersection::kCovariance, Intersection::kSplit,
                                    Intersection::kInverse};
 
-double error(const MatrixXd& a, const MatrixXd& b)
-{
-  return (a - b).cwiseAbs().maxCoeff() / (1 + b.cwiseAbs().maxCoeff());
-}
-
 // The new mean (minus the old) and covariance in information form, straight from the definitions,
 // in long double: inverses lose digits.
-void direct(const Case& c, Intersection rule, double w, VectorXd& shift, MatrixXd& cov)
+void direct(const Case& c, Intersection rule, double w, Dense& shift, Dense& cov)
 {
-  using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  const auto wide = [](const MatrixXd& M) { return Wide(M.cast<long double>()); };
+  using Wide = DenseOf<long double>;
+  const auto wide = [](const auto& M) { return Wide(M.template cast<long double>()); };
+  const auto narrow = [](const Wide& M) { return Dense(M.cast<double>()); };
   const Wide P = wide(c.P), H = wide(c.H), B = wide(c.B), own = wide(c.independent),
              nu = wide(c.nu);
-  const long double v = 1 - static_cast<long double>(w);
   if (rule != Intersection::kInverse)
   {
-    const Wide info = rule == Intersection::kCovariance ? Wide(v * B.inverse())
-                                                        : Wide(((B - own) / v + own).inverse());
+    const Wide info = rule == Intersection::kCovariance ? (1 - w) * B.inverse()
+                                                        : ((B - own) / (1 - w) + own).inverse();
     const Wide fused = (w * P.inverse() + H.transpose() * info * H).inverse();
-    cov = fused.cast<double>();
-    shift = (fused * H.transpose() * info * nu).cast<double>();
+    cov = narrow(fused);
+    shift = narrow(fused * H.transpose() * info * nu);
     return;
   }
   const Wide W = P * H.transpose(), A = H * W, Ai = A.inverse(), Bi = B.inverse();
-  const Wide Si = (v * A + w * B).inverse();
+  const Wide Si = ((1 - w) * A + w * B).inverse();
   const Wide fused = (Ai + Bi - Si).inverse();
-  shift = (W * Ai * fused * (Bi - w * Si) * nu).cast<double>();
-  cov = (P - W * Ai * (A - fused) * Ai * W.transpose()).cast<double>();
+  shift = narrow(W * Ai * fused * (Bi - w * Si) * nu);
+  cov = narrow(P - W * Ai * (A - fused) * Ai * W.transpose());
 }
 }  // namespace
 
@@ -110,14 +97,13 @@ TEST(Intersection, EqualsTheInformationForm)
     const double w = random.uniform(0.02, 0.98);
     for (const Intersection rule : kRules)
     {
-      VectorXd shift;
-      MatrixXd cov;
+      Dense shift, cov;
       direct(c, rule, w, shift, cov);
       const IntersectionUpdate u = c.fuse(rule, w);
       EXPECT_TRUE(u.pays);
       EXPECT_EQ(u.omega, w);
       EXPECT_LT(error(c.cov(u), cov), 1e-10) << "case " << i << " rule " << int(rule);
-      EXPECT_LT(error(c.W() * u.gain, shift), 1e-10) << "case " << i << " rule " << int(rule);
+      EXPECT_LT(error(c.shift(u), shift), 1e-10) << "case " << i << " rule " << int(rule);
     }
   }
 }
@@ -164,17 +150,16 @@ TEST(Intersection, EqualCovariancesWeighHalf)
 {
   RandomStream random{4};
   Case c(random);
-  c.H = MatrixXd::Identity(c.P.rows(), c.P.rows()).topRows(std::min<int>(c.P.rows(), kMaxBlock));
-  c.P = c.P.topLeftCorner(c.H.rows(), c.H.rows()).eval();
-  c.H = c.E = MatrixXd::Identity(c.P.rows(), c.P.rows());
-  c.B = c.P;
-  c.nu = VectorXd::Ones(c.P.rows());
+  const int m = std::min<int>(c.P.rows(), kMaxBlock);
+  c.B = c.P = c.P.topLeftCorner(m, m).eval();
+  c.H = c.E = identity(m);
+  c.nu = VectorXd::Ones(m);
   const IntersectionUpdate ci = c.fuse(Intersection::kCovariance);
   EXPECT_TRUE(ci.pays);
   EXPECT_EQ(ci.omega, 0.5);
   EXPECT_LT(error(c.cov(ci), c.P), 1e-12);
-  EXPECT_LT(error(c.W() * ci.gain, 0.5 * c.nu), 1e-12);
-  c.independent = 0 * c.B;
+  EXPECT_LT(error(c.shift(ci), 0.5 * c.nu), 1e-12);
+  c.independent = zeros(m, m);
   EXPECT_EQ(c.fuse(Intersection::kSplit).omega, 0.5);
   EXPECT_EQ(c.fuse(Intersection::kInverse).omega, 0.5);
   const PaperBlock paper = paperBlock(c.P, c.nu, c.B);
@@ -194,14 +179,14 @@ TEST(Intersection, ChangesNothingWhereItDoesNotPay)
     {
       // The criterion's slope at omega = 1, where covariance intersection begins to pay.
       const auto k = c.criterion();
-      const bool pays = (c.B.inverse() * k.gram).trace() > k.trace;
+      const bool pays = (c.B.inverse() * Dense(k.gram)).trace() > k.trace;
       const IntersectionUpdate u = c.fuse(rule);
       EXPECT_EQ(u.pays, pays);
       if (pays) continue;
       EXPECT_EQ(u.omega, 1);
       EXPECT_EQ(u.scale, 1);
       EXPECT_EQ(u.gain, VectorXd::Zero(c.nu.size()));
-      EXPECT_EQ(u.reduction, MatrixXd::Zero(c.nu.size(), c.nu.size()));
+      EXPECT_EQ(u.reduction, zeros(c.nu.size(), c.nu.size()));
     }
     EXPECT_FALSE(c.fuse(Intersection::kCovariance, 1.0).pays);
   }
@@ -260,9 +245,9 @@ TEST(Intersection, SplitTakesIndependentNoiseAsAKalmanFilter)
     Case c(random);
     c.independent = c.B;
     const auto u = c.fuse(Intersection::kSplit);
-    const MatrixXd K = c.W() * (c.H * c.W() + c.B).inverse();
+    const Dense K = c.W() * (c.H * c.W() + c.B).inverse();
     EXPECT_LT(error(c.cov(u), c.P - K * c.W().transpose()), 1e-6);
-    EXPECT_LT(error(c.W() * u.gain, K * c.nu), 1e-6);
+    EXPECT_LT(error(c.shift(u), K * Dense(c.nu)), 1e-6);
   }
 }
 
@@ -294,32 +279,30 @@ TEST(Intersection, RefusesWhatIsNoCovariance)
       refused(good, rule, omega);
   }
   Case c(random);
-  c.independent = 2 * c.B;
+  c.independent = 2.0 * c.B;
   refused(c, Intersection::kSplit);
 }
 
 TEST(PaperBlock, EqualsItsEquationsAndTakesTheBestNorm)
 {
   RandomStream random{10};
-  const auto norm = [](const MatrixXd& C)
-  { return Eigen::SelfAdjointEigenSolver<MatrixXd>(C).eigenvalues().maxCoeff(); };
+  const auto norm = [](const Dense& C) { return -smallestEigenvalue(-1.0 * C); };
   for (int i = 0; i < 100; ++i)
   {
     const int m = 2 + i % 5;
-    const MatrixXd A = drawCovariance(random, m), B = drawCovariance(random, m);
-    const VectorXd a = drawMatrix(random, m, 1), b = drawMatrix(random, m, 1);
+    const Dense A = drawCovariance(random, m), B = drawCovariance(random, m);
+    const Dense a = draw(random, m, 1), b = draw(random, m, 1);
+    const VectorXd nu = b - a;
     const double w = random.uniform(0.01, 0.99);
-    const PaperBlock fixed = paperBlock(A, b - a, B, w), best = paperBlock(A, b - a, B);
-    const MatrixXd C = (w * A.inverse() + (1 - w) * B.inverse()).inverse();
+    const PaperBlock fixed = paperBlock(A, nu, B, w), best = paperBlock(A, nu, B);
+    const Dense Ai = A.inverse(), Bi = B.inverse(), C = (w * Ai + (1 - w) * Bi).inverse();
     EXPECT_LT(error(fixed.cov, C), 1e-9);
-    EXPECT_LT(error(fixed.crossFactor, w * C * A.inverse()), 1e-9);
-    EXPECT_LT(error(a + fixed.shift, C * (w * A.inverse() * a + (1 - w) * B.inverse() * b)), 1e-8);
+    EXPECT_LT(error(fixed.crossFactor, w * C * Ai), 1e-9);
+    EXPECT_LT(error(a + Dense(fixed.shift), C * (w * Ai * a + (1 - w) * Bi * b)), 1e-8);
     for (double grid = 0.01; grid < 1; grid += 0.01)
-      EXPECT_LE(norm(best.cov), norm(paperBlock(A, b - a, B, grid).cov) * (1 + 1e-6)) << i;
+      EXPECT_LE(norm(best.cov), norm(paperBlock(A, nu, B, grid).cov) * (1 + 1e-6)) << i;
     EXPECT_LE(norm(best.cov), std::min(norm(A), norm(B)) * (1 + 1e-9));
   }
-  EXPECT_EQ(
-      paperBlock(MatrixXd::Identity(2, 2), VectorXd::Ones(2), 9 * MatrixXd::Identity(2, 2)).omega,
-      1);
+  EXPECT_EQ(paperBlock(identity(2), VectorXd::Ones(2), 9.0 * identity(2)).omega, 1);
 }
 }  // namespace slamot::math
