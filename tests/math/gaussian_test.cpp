@@ -155,6 +155,32 @@ TEST(SquareRoot, RefusesWhatIsNoCovariance)
   EXPECT_THROW((void)squareRoot(nan), std::domain_error);
 }
 
+TEST(Ellipse, HasTheCovarianceOfItsAxes)
+{
+  RandomStream random{6};
+  for (int i = 0; i < 100; ++i)
+  {
+    Matrix2 root;
+    root << random.normal(), random.normal(), random.normal(), i % 5 ? random.normal() : 0;
+    if (i % 4 == 0) root.col(1).setZero();  // a line
+    const Matrix2 cov = root * root.transpose();
+    const Ellipse e = ellipse(cov);
+    const Vector2 u(std::cos(e.direction), std::sin(e.direction)), v(-u[1], u[0]);
+    const Matrix2 drawn = e.longer * e.longer * u * u.transpose() +
+                          e.shorter * e.shorter * v * v.transpose();
+    EXPECT_LE((drawn - cov).norm(), 1e-14 * cov.norm()) << cov;
+    EXPECT_GE(e.longer, e.shorter);
+  }
+}
+
+TEST(Ellipse, IsACircleOrAPointWhereTheCovarianceIs)
+{
+  const Ellipse circle = ellipse(4 * Matrix2::Identity());
+  EXPECT_EQ(circle.longer, 2);
+  EXPECT_EQ(circle.shorter, 2);
+  EXPECT_EQ(ellipse(Matrix2::Zero()).longer, 0);
+}
+
 TEST(Asymmetry, IsTheLargestDifference)
 {
   Matrix3 m = Matrix3::Identity();

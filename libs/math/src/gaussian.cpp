@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -43,6 +44,14 @@ Matrix3 squareRoot(const Matrix3& cov)
     throw std::domain_error("covariance has a negative eigenvalue");
   const Matrix3& V = eigen.eigenvectors();
   return V * d.cwiseMax(0.0).cwiseSqrt().asDiagonal() * V.transpose();
+}
+
+Ellipse ellipse(const Matrix2& cov)
+{
+  const double mean = 0.5 * (cov(0, 0) + cov(1, 1)), half = 0.5 * (cov(0, 0) - cov(1, 1));
+  const double radius = std::hypot(half, cov(0, 1));
+  return {std::sqrt(std::max(mean + radius, 0.0)), std::sqrt(std::max(mean - radius, 0.0)),
+          0.5 * std::atan2(cov(0, 1), half)};
 }
 
 double asymmetry(const Eigen::Ref<const Eigen::MatrixXd>& m)

@@ -2,7 +2,6 @@
 
 #include <slamot/math/statistics.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace slamot::mrpt
@@ -103,17 +102,15 @@ void Mesh::ribbon(const Polyline& line, double width, double z)
 
 void Mesh::ellipse(const Gaussian<Point2D>& g, double rim, double z, bool filled)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix2> eigen(g.cov);
+  const math::Ellipse axes = math::ellipse(g.cov);
   const double scale = std::sqrt(math::chiSquareQuantile(0.95, 2));
-  const Vector2 axes = scale * eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Pose2D centre(g.mean.x, g.mean.y, axes.direction);
   const auto outline = [&](double grown)
   {
     return around(36,
-                  [&](double c, double s) -> Point2D
-                  {
-                    const Vector2 p = eigen.eigenvectors() *
-                                      Vector2((axes[0] + grown) * c, (axes[1] + grown) * s);
-                    return {g.mean.x + p[0], g.mean.y + p[1]};
+                  [&](double c, double s) {
+                    return math::transform(centre, {(scale * axes.longer + grown) * c,
+                                                    (scale * axes.shorter + grown) * s});
                   });
   };
   const Polyline inner = outline(0), outer = outline(rim);

@@ -2,7 +2,6 @@
 
 #include <slamot/math/statistics.h>
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <limits>
 
@@ -29,15 +28,16 @@ Ink inkOf(std::size_t n)
 void appendEllipse(Series& shapes, const Gaussian<Point2D>& g, double probability)
 {
   constexpr int kCorners = 36;
-  const Eigen::SelfAdjointEigenSolver<Matrix2> eigen(g.cov);
+  const math::Ellipse axes = math::ellipse(g.cov);
+  const Pose2D centre(g.mean.x, g.mean.y, axes.direction);
   const double radius = std::sqrt(math::chiSquareQuantile(probability, 2));
-  const Vector2 axes = radius * eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
   for (int i = 0; i <= kCorners; ++i)
   {
     const double a = math::kTwoPi * i / kCorners;
-    const Vector2 p = eigen.eigenvectors() * Vector2(axes[0] * std::cos(a), axes[1] * std::sin(a));
-    shapes.x.push_back(g.mean.x + p[0]);
-    shapes.y.push_back(g.mean.y + p[1]);
+    const Point2D p = math::transform(
+        centre, {radius * axes.longer * std::cos(a), radius * axes.shorter * std::sin(a)});
+    shapes.x.push_back(p.x);
+    shapes.y.push_back(p.y);
   }
   endOutline(shapes);
 }

@@ -38,6 +38,15 @@ namespace slamot::math
 /// \throws std::domain_error if cov is not finite or has an eigenvalue below -1e-8 of its largest.
 [[nodiscard]] Matrix3 squareRoot(const Matrix3& cov);
 
+/// Where a Gaussian of two coordinates [m] has one deviation.
+struct Ellipse
+{
+  double longer, shorter;  ///< half axes [m]
+  double direction;        ///< of the longer one [rad]
+};
+/// Eigen's solver, for this size only, is no formula and takes eight seconds to build.
+[[nodiscard]] Ellipse ellipse(const Matrix2& cov);
+
 /// Largest difference between a matrix and its transpose.
 [[nodiscard]] double asymmetry(const Eigen::Ref<const Eigen::MatrixXd>& m);
 
