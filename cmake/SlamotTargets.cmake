@@ -13,10 +13,20 @@ if(SLAMOT_BUILD_FUZZ)  # coverage for the fuzzer and checks, in all libraries
   add_link_options(-fsanitize=fuzzer-no-link,address,undefined)
 endif()
 
-# slamot_library(NAME [SHARED] SOURCES a.cpp ... [DEPENDS targets ...] [PRIVATE_DEPENDS targets ...])
-# Makes lib slamot-NAME with alias slamot::NAME, headers in include/, installed and exported.
+set(seldom $<$<CONFIG:Release>:-O1>)  # options for what runs seldom: two thirds of the time to build
+include(SlamotPrecompiled)
+set(common <algorithm> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <string>
+    <vector> <Eigen/Core> <mrpt/math/TPose2D.h>)
+slamot_precompiled(slamot_precompiled_library PIC ${BUILD_SHARED_LIBS} HEADERS ${common}
+                   DEPENDS Eigen3::Eigen mrpt::math)
+slamot_precompiled(slamot_precompiled_seldom PIC ${BUILD_SHARED_LIBS} HEADERS ${common}
+                   DEPENDS Eigen3::Eigen mrpt::math OPTIONS ${seldom})
+
+# slamot_library(NAME [SHARED] [SELDOM] SOURCES a.cpp ... [DEPENDS targets ...] [PRIVATE_DEPENDS targets ...])
+# Makes lib slamot-NAME with alias slamot::NAME, headers in include/, installed and exported. SELDOM: what
+# it does takes no time worth the optimizer's, such as to read and write files.
 function(slamot_library name)
-  cmake_parse_arguments(ARG "SHARED" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "SHARED;SELDOM" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target slamot-${name})
   set(kind)  # else as BUILD_SHARED_LIBS says
   if(ARG_SHARED)
@@ -30,6 +40,12 @@ function(slamot_library name)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
     PRIVATE ${ARG_PRIVATE_DEPENDS} $<BUILD_INTERFACE:slamot_private>)
+  if(ARG_SELDOM)
+    target_compile_options(${target} PRIVATE ${seldom})
+    slamot_use_precompiled(${target} slamot_precompiled_seldom)
+  elseif(NOT ARG_SHARED)
+    slamot_use_precompiled(${target} slamot_precompiled_library)
+  endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR})
   install(TARGETS ${target} EXPORT slamot-targets
@@ -42,7 +58,7 @@ function(slamot_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name}-test ${ARG_SOURCES})
   target_link_libraries(${name}-test PRIVATE ${ARG_DEPENDS} GTest::gtest_main slamot_private)
-  # Two thirds of the time to build; what they test is in libraries.
-  target_compile_options(${name}-test PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${name}-test PRIVATE ${seldom})  # what they test is in libraries
+  slamot_use_precompiled(${name}-test slamot_precompiled_test)
   gtest_discover_tests(${name}-test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

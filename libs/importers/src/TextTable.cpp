@@ -66,7 +66,8 @@ std::size_t TextTable::matchHeader(const std::vector<Names>& headers) const
     if (headers[i] == names_) return i;
   std::string wanted;
   for (const Names& header : headers) wanted += (wanted.empty() ? "" : " or ") + join(header);
-  fail(ExitStatus::kUnreadable, "the header is " + quoted(join(names_)), "it must be " + wanted);
+  fail(ExitStatus::kUnreadable, "the header is " + importers::quoted(join(names_)),
+       "it must be " + wanted);
 }
 
 void TextTable::split(std::string_view line)
