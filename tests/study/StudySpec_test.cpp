@@ -41,6 +41,8 @@ TEST(StudySpec, WrongValuesAreOneLineThatNamesTheKey)
   expectError("study.methods=joint, nobody", "[study] methods: there is no [method.nobody]");
   expectError("study.methods=joint, joint", "[study] methods: joint comes twice");
   expectError("study.reference=nobody", "[study] reference: 'nobody' is none of the methods");
+  expectError("table.ratios.reference=nobody",
+              "[table.ratios] reference: 'nobody' is none of the methods");
   expectError("study.rawlogs=x.rawlog", "[study] scenario: is given beside rawlogs");
   expectError("study.scenario=none.ini", "none.ini can't be read");
   expectError("study.vary=particles", "[study] vary: there is no [vary.particles]");
@@ -127,5 +129,21 @@ TEST(StudySpec, SavedSpecRepeatsTheStudy)
   for (std::size_t g = 0; g < plan.groups.size(); ++g)
     EXPECT_EQ(again.groups[g].hash, plan.groups[g].hash);
   EXPECT_EQ(again.runs.size(), plan.runs.size());
+}
+
+TEST(StudySpec, ATableOfRatiosHasTheStudysReferenceOrItsOwn)
+{
+  const TinyStudy study;
+  const auto references = [](const StudySpec& spec)
+  {
+    std::vector<std::string> out;
+    for (const TableSpec& t : spec.tables) out.push_back(t.reference);
+    return out;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(references(study.spec()), (Names{"", "joint"}));
+  EXPECT_EQ(references(study.spec({"table.ratios.reference=odometry"})), (Names{"", "odometry"}));
+  EXPECT_EQ(references(study.spec({"study.reference=none", "table.ratios.reference=odometry"})),
+            (Names{"", "odometry"}));
 }
 }  // namespace slamot::study::test

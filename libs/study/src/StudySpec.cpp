@@ -153,7 +153,7 @@ StudySpec StudySpec::load(const std::string& path, const std::vector<std::string
   spec.landmarkCutoff = p.positive("landmark_cutoff_m", spec.landmarkCutoff);
   spec.gospaCutoff = p.positive("gospa_cutoff_m", spec.gospaCutoff);
   spec.bound = p.flag("bound", true);
-  spec.tables = readTables(study, p, !spec.reference.empty());
+  spec.tables = readTables(study, p, spec);
   spec.plots = readPlots(study, spec.axes);
   spec.published = readPublished(study);
   study.requireAllRead(unused);

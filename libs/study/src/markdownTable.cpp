@@ -104,9 +104,9 @@ bool isOfMeanSquares(const std::string& name)
 std::string tableOf(const Plan& plan, const Outcome& outcome, const TableSpec& table)
 {
   const StudySpec& spec = plan.spec;
-  const auto reference = placeOf(spec.methods, spec.reference);
+  const auto reference = placeOf(spec.methods, table.reference);
   std::string out = table.title.empty() ? "\n" : "\n## " + table.title + "\n\n";
-  out += table.ratios ? "Ratio of the mean to that of " + spec.methods[*reference].label +
+  out += reference ? "Ratio of the mean to that of " + spec.methods[*reference].label +
                             ", paired by seed, ± half width of its 95% interval.\n\n"
                       : "Mean over the runs ± half width of its 95% interval (standard deviation "
                         "over the runs).\n\n";
@@ -118,17 +118,17 @@ std::string tableOf(const Plan& plan, const Outcome& outcome, const TableSpec& t
   for (std::size_t c = 0; c < plan.cells.size(); ++c)
     for (std::size_t m = 0; m < spec.methods.size(); ++m)
     {
-      if (table.ratios && m == *reference) continue;
+      if (reference && m == *reference) continue;
       auto row = rowStart(plan, c, m);
       for (const std::string& name : table.metrics)
       {
         const std::size_t k = *metricByName(name), group = plan.groupOf[c][m];
-        row.push_back(table.ratios ? ratioOf(plan, outcome, group, plan.groupOf[c][*reference], k)
+        row.push_back(reference ? ratioOf(plan, outcome, group, plan.groupOf[c][*reference], k)
                                    : meanOf(plan, outcome, group, k));
       }
       out += markdownLine(row);
     }
-  return table.ratios ? out : out + publishedRows(plan, table);
+  return reference ? out : out + publishedRows(plan, table);
 }
 
 std::string failures(const Plan& plan, const Outcome& outcome)

@@ -142,17 +142,23 @@ Axis readAxis(core::Config& study, const std::string& name, const StudySpec& spe
   return out;
 }
 
-std::vector<TableSpec> readTables(core::Config& study, core::Params& p, bool hasReference)
+std::vector<TableSpec> readTables(core::Config& study, core::Params& p, const StudySpec& spec)
 {
-  if (!p.has("tables")) return {{"errors", "", {"robot_mean_m", "target_mean_m"}, false}};
+  if (!p.has("tables")) return {{"errors", "", {"robot_mean_m", "target_mean_m"}, ""}};
   std::vector<TableSpec> out;
   for (const std::string& name : p.list("tables"))
   {
     if (!study.has("table." + name)) p.fail("tables", "there is no [table." + name + "]", "add it");
     core::Params t(study, "table." + name);
-    TableSpec table{name, t.text("title", ""), readMetrics(t, "columns"), t.flag("ratios", false)};
-    if (table.ratios && !hasReference)
-      t.fail("ratios", "there is no method to compare with", "set [study] reference");
+    TableSpec table{name, t.text("title", ""), readMetrics(t, "columns"), ""};
+    if (t.flag("ratios", false))
+    {
+      if (spec.reference.empty() && !t.has("reference"))
+        t.fail("ratios", "there is no method to compare with", "set reference, here or in [study]");
+      table.reference = t.text("reference", spec.reference);
+      if (!placeOf(spec.methods, table.reference))
+        t.fail("reference", "'" + table.reference + "' is none of the methods", "name one");
+    }
     out.push_back(table);
   }
   return out;

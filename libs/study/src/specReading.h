@@ -23,7 +23,7 @@ Method readMethod(core::Config& study, const std::string& name,
 /// \throws core::Error (kConfig) if neither the scenario nor a method has a section that it varies.
 Axis readAxis(core::Config& study, const std::string& name, const StudySpec& spec);
 /// The tables that [study] tables names; without it, one of the two mean errors.
-std::vector<TableSpec> readTables(core::Config& study, core::Params& p, bool hasReference);
+std::vector<TableSpec> readTables(core::Config& study, core::Params& p, const StudySpec& spec);
 /// All [plot.<name>] and all [published.<name>].
 std::vector<PlotSpec> readPlots(core::Config& study, const std::vector<Axis>& axes);
 std::vector<Published> readPublished(core::Config& study);

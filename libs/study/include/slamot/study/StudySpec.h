@@ -44,7 +44,7 @@ struct TableSpec
 {
   std::string name, title;
   std::vector<std::string> metrics;
-  bool ratios = false;  ///< to the reference, instead of means
+  std::string reference;  ///< the method by whose means others' are divided; empty: means
 };
 
 /// A figure of metrics over an axis, one panel for each metric; section [plot.<name>].
