@@ -245,5 +245,6 @@ TEST(Compressed, EqualsThePlainFormWithoutIdentities)
 {
   expectEqualDrives("nn");
   expectEqualDrives("jcbb");
+  expectEqualDrives("mht", "detection_probability=0.9\nfirst_estimates=true\n");
 }
 }  // namespace slamot::filters::ekf

@@ -1,6 +1,6 @@
 #include <slamot/filters/EkfSlamot.h>
 
-#include "ekf/Engine.h"
+#include "ekf/Hypotheses.h"
 
 namespace slamot::filters
 {
@@ -10,12 +10,15 @@ std::unique_ptr<EkfSlamot::Engine> makeEngine(core::Params& params,
                                               const std::vector<core::FilterContext>& contexts,
                                               const ekf::Mates& mates)
 {
-  const ekf::Settings settings = ekf::Settings::from(params);
+  const ekf::Settings settings = ekf::Settings::from(
+      params, params.section() == "slamot" ? ekf::Preset{"mht", true} : ekf::Preset{});
   return std::visit(
       [&](const auto& motion) -> std::unique_ptr<EkfSlamot::Engine>
       {
-        return std::make_unique<ekf::EngineOf<std::decay_t<decltype(motion)>>>(settings, motion,
-                                                                               contexts, mates);
+        auto one = std::make_unique<ekf::EngineOf<std::decay_t<decltype(motion)>>>(settings, motion,
+                                                                                   contexts, mates);
+        if (!settings.arrival) return one;
+        return std::make_unique<ekf::Hypotheses>(settings, std::move(one));
       },
       models::targetMotionFrom(params, "constant-acceleration"));
 }

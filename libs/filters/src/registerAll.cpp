@@ -24,7 +24,7 @@ void registerAll()
     add<RbpfSlamot>("rbpf-slamot");
     for (const char* family : {"fastslam1", "fastslam2", "ufastslam", "gmphd-ufastslam"})
       add<RbpfSlamot>(family);
-    add<EkfSlamot>("ekf-slamot");
+    for (const char* core : {"slamot", "ekf-slamot"}) add<EkfSlamot>(core);
     add<Independent>("independent");
     add<OdometryTarget>("odometry");
     add<TruePoseTarget>("true-pose-target");

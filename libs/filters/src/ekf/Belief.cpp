@@ -9,10 +9,28 @@
 
 namespace slamot::filters::ekf
 {
+void failOverflow()
+{
+  throw core::Error(core::ExitStatus::kNonsense, "ekf-slamot", "the estimate overflowed at a step",
+                    "look for absurd values of odometry or deviations in the log");
+}
+
 Belief::Belief(int robots, int targetSize) : robots_(robots), targetSize_(targetSize)
 {
   x_.setZero(front());
   P_.grow(front());
+}
+Belief::Belief(const Belief& other)
+    : robots_(other.robots_),
+      targetSize_(other.targetSize_),
+      targetSlots_(other.targetSlots_),
+      freeTargets_(other.freeTargets_),
+      freeLandmarks_(other.freeLandmarks_),
+      offset_(other.offset_),
+      x_(other.x_),
+      P_(other.P_),
+      rest_(other.rest_ ? std::make_unique<Rest>(*other.rest_) : nullptr)
+{
 }
 Belief::~Belief() = default;
 
@@ -121,11 +139,11 @@ void Belief::move(int j, const Eigen::Ref<const Eigen::VectorXd>& mean,
     rest_->phi.middleRows(j, mean.size()) = (F * rest_->phi.middleRows(j, F.cols())).eval();
 }
 
-void Belief::update(const std::vector<SightingRows>& rows)
+double Belief::update(const std::vector<SightingRows>& rows)
 {
   const auto m = static_cast<Eigen::Index>(2 * rows.size());
   const int n = P_.size();
-  if (m == 0) return;
+  if (m == 0) return 0;
   W_.resize(n, m);
   column_.resize(n, 5);
   Eigen::VectorXd nu(m), variance(m);
@@ -163,12 +181,15 @@ void Belief::update(const std::vector<SightingRows>& rows)
   llt.matrixL().solveInPlace(nu);
   x_.noalias() += W_ * nu;
   P_.update(W_, -1);
-  if (!rest_) return;
+  const double logDensity = -0.5 * (nu.squaredNorm() + m * std::log(math::kTwoPi)) -
+                            llt.matrixLLT().diagonal().array().log().sum();
+  if (!rest_) return logDensity;
   Eigen::MatrixXd U = timesH(rest_->phi);
   llt.matrixL().solveInPlace(U);
   rest_->take(U, nu);
   addProduct(-1, ReadOnly::of(W_), ReadOnly::transposeOf(U), rest_->phi.data(),
              rest_->phi.outerStride(), false);
+  return logDensity;
 }
 
 Eigen::MatrixXd Belief::product(const Rows& H) const

@@ -14,11 +14,15 @@ namespace slamot::filters::ekf
 /// Two rows of H: a sighting of an object by a robot, with its noise.
 struct SightingRows
 {
-  int robot = 0, object = 0;            ///< coordinates of pose and place: where they begin
-  Eigen::Matrix<double, 2, 3> byRobot;  ///< derivative of what is expected
-  Matrix2 byObject;
-  Vector2 innovation, variance;
+  int robot = 0, object = 0;  ///< coordinates of pose and place: where they begin
+  // Derivatives of what is expected:
+  Eigen::Matrix<double, 2, 3> byRobot = Eigen::Matrix<double, 2, 3>::Zero();
+  Matrix2 byObject = Matrix2::Zero();
+  Vector2 innovation = Vector2::Zero(), variance = Vector2::Zero();
 };
+
+/// \throws core::Error that says that the numbers of a log made no sense.
+[[noreturn]] void failOverflow();
 
 /// Mean and covariance of robots, targets and landmarks, in this order; landmarks in the order of
 /// their discovery.  Room for targets comes in slots, and a free slot has zero covariance: targets
@@ -34,6 +38,7 @@ class Belief
 {
  public:
   Belief(int robots, int targetSize);
+  Belief(const Belief& other);
   ~Belief();
 
   [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
@@ -67,7 +72,8 @@ class Belief
   void move(int j, const Eigen::Ref<const Eigen::VectorXd>& mean,
             const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Q);
   /// Kalman update by all sightings at once.  Angles of x are the caller's to wrap.
-  void update(const std::vector<SightingRows>& rows);
+  /// \return log density of the innovations.
+  double update(const std::vector<SightingRows>& rows);
 
   /// W = P Hᵀ of rows that are zero but for `columns`, which begin at `at`.
   struct Rows

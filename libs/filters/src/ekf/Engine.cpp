@@ -36,7 +36,15 @@ EngineOf<Motion>::EngineOf(const Settings& settings, const Motion& motion,
 }
 
 template <class Motion>
-core::Update EngineOf<Motion>::process(int robot, const core::Step& step)
+std::unique_ptr<Hypothesis> EngineOf<Motion>::clone() const
+{
+  std::unique_ptr<EngineOf> out(new EngineOf(*this));
+  out->map_.attach(out->settings_, out->belief_);
+  return out;
+}
+
+template <class Motion>
+void EngineOf<Motion>::move(int robot, const core::Step& step)
 {
   double& last = times_[static_cast<std::size_t>(robot)];
   core::checkStep(step, last);
@@ -44,20 +52,23 @@ core::Update EngineOf<Motion>::process(int robot, const core::Step& step)
   if (std::isfinite(time_) && step.time > time_) moveTargets(step.time - time_);
   last = step.time;
   time_ = std::max(time_, step.time);
+}
+
+template <class Motion>
+core::Update EngineOf<Motion>::take(int robot, const core::Step& step,
+                                    const core::LandmarkScan* landmarks)
+{
   core::Update out;
-  if (step.landmarks || step.blobs)
+  if (landmarks || step.blobs)
   {
-    takeScan(belief_.robot(robot), step, out.pairings);
+    takeScan(belief_.robot(robot), step, landmarks, out.pairings);
     // In polar coordinates a turn of the robot moves the bearing alone, by as much.
     out.diagnostics.close = static_cast<int>(std::count_if(
         rows_.begin(), rows_.end(),
         [](const SightingRows& r) { return r.byRobot(0, 2) != 0 || r.byRobot(1, 2) != -1; }));
   }
   if (step.blobs) dropLost(step.time);
-  if (!belief_.x().allFinite() || !belief_.P().diagonal().allFinite())
-    throw core::Error(core::ExitStatus::kNonsense, "ekf-slamot",
-                      "the estimate overflowed at a step",
-                      "look for absurd values of odometry or deviations in the log");
+  if (!belief_.x().allFinite() || !belief_.P().diagonal().allFinite()) failOverflow();
   out.estimate = estimate(robot);
   return out;
 }
@@ -80,21 +91,21 @@ void EngineOf<Motion>::moveRobot(int robot, const Gaussian<Pose2D>& increment)
 }
 
 template <class Motion>
-void EngineOf<Motion>::takeScan(int robot, const core::Step& step,
+void EngineOf<Motion>::takeScan(int robot, const core::Step& step, const core::LandmarkScan* scan,
                                 std::vector<core::Pairing>& pairings)
 {
   rows_.clear();
   Map::Scan landmarks;
   BlobScan blobs;
-  if (step.landmarks) landmarks = map_.match(robot, *step.landmarks, step.time, rows_);
+  if (scan) landmarks = map_.match(robot, *scan, step.time, rows_);
   if (step.blobs) matchTargets(robot, *step.blobs, step.time, blobs);
   std::vector<core::Pairing> ofMates;
   if (step.blobs) matchMates(robot, *step.blobs, step.time, ofMates);
   belief_.update(rows_);
   wrapAngles();
-  if (step.landmarks)
+  if (scan)
   {
-    const auto slots = map_.settle(robot, *step.landmarks, landmarks, step.time);
+    const auto slots = map_.settle(robot, *scan, landmarks, step.time);
     for (std::size_t k = 0; k < slots.size(); ++k)
     {
       const std::int32_t m = landmarks.matches[k];

@@ -31,20 +31,45 @@ struct Mates
   std::vector<int> ids;  ///< that sensors tell, by robot; none: those of blobs are not believed
 };
 
+/// An engine that can be one of several hypotheses, without its target model's type.
+class Hypothesis : public EkfSlamot::Engine
+{
+ public:
+  [[nodiscard]] virtual std::unique_ptr<Hypothesis> clone() const = 0;
+  /// The two halves of process(): to the step's time, and its sightings.
+  virtual void move(int robot, const core::Step& step) = 0;
+  /// \param landmarks absent: none, or they have been taken already.
+  virtual core::Update take(int robot, const core::Step& step,
+                            const core::LandmarkScan* landmarks) = 0;
+  [[nodiscard]] virtual Belief& belief() = 0;
+  [[nodiscard]] virtual Map& map() = 0;
+};
+
 template <class Motion>
-class EngineOf : public EkfSlamot::Engine
+class EngineOf : public Hypothesis
 {
  public:
   EngineOf(const Settings& settings, const Motion& motion,
            const std::vector<core::FilterContext>& contexts, const Mates& mates);
 
-  core::Update process(int robot, const core::Step& step) override;
+  core::Update process(int robot, const core::Step& step) override
+  {
+    move(robot, step);
+    return take(robot, step, step.landmarks ? &*step.landmarks : nullptr);
+  }
+  [[nodiscard]] std::unique_ptr<Hypothesis> clone() const override;
+  void move(int robot, const core::Step& step) override;
+  core::Update take(int robot, const core::Step& step,
+                    const core::LandmarkScan* landmarks) override;
+  [[nodiscard]] Belief& belief() override { return belief_; }
+  [[nodiscard]] Map& map() override { return map_; }
   [[nodiscard]] core::Estimate estimate(int robot) const override;
   [[nodiscard]] core::RobotAndTarget robotAndTarget(int target) const override;
   core::Fusion fuse(const core::Evidence& evidence, const core::FusionOptions& options) override;
   void predictTarget(core::RobotAndTarget& other, double dt) const override;
 
  private:
+  EngineOf(const EngineOf&) = default;  // map_ is the other's until attached
   using State = typename Motion::State;
   static constexpr int kSize = State::kSize;
   struct Target
@@ -66,7 +91,8 @@ class EngineOf : public EkfSlamot::Engine
   [[nodiscard]] State stateOf(const Target& target) const;
   void moveRobot(int robot, const Gaussian<Pose2D>& increment);
   void moveTargets(double dt);
-  void takeScan(int robot, const core::Step& step, std::vector<core::Pairing>& pairings);
+  void takeScan(int robot, const core::Step& step, const core::LandmarkScan* landmarks,
+                std::vector<core::Pairing>& pairings);
   void matchTargets(int robot, const core::BlobScan& scan, double time, BlobScan& out);
   void matchMates(int robot, const core::BlobScan& scan, double time,
                   std::vector<core::Pairing>& pairings);

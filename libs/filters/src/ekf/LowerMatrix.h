@@ -12,6 +12,13 @@ namespace slamot::filters::ekf
 class LowerMatrix
 {
  public:
+  LowerMatrix() = default;
+  LowerMatrix(const LowerMatrix& other)
+      : data_(other.data_.topLeftCorner(other.n_, other.n_)), n_(other.n_)
+  {
+  }
+  LowerMatrix(LowerMatrix&&) = default;
+  LowerMatrix& operator=(LowerMatrix&&) = default;
   [[nodiscard]] int size() const { return n_; }
   double operator()(int i, int j) const { return i >= j ? data_(i, j) : data_(j, i); }
 

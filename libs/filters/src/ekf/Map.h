@@ -11,7 +11,13 @@ namespace slamot::filters::ekf
 class Map : public core::LandmarkView
 {
  public:
-  Map(const Settings& settings, Belief& belief) : settings_(settings), belief_(belief) {}
+  Map(const Settings& settings, Belief& belief) : settings_(&settings), belief_(&belief) {}
+  /// A copied map belongs to the copy of its belief.
+  void attach(const Settings& settings, Belief& belief)
+  {
+    settings_ = &settings;
+    belief_ = &belief;
+  }
 
   void visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const override;
   [[nodiscard]] std::size_t size() const override;
@@ -30,10 +36,33 @@ class Map : public core::LandmarkView
   /// \return for each sighting the landmark's slot, or kRejected.
   std::vector<std::int32_t> settle(int robot, const core::LandmarkScan& scan, const Scan& matched,
                                    double time);
+
+  // The same in steps, for hypotheses that part over what a sighting is of.
+
+  /// What a sighting may be of.
+  struct Alternative
+  {
+    std::int32_t thing;  ///< a landmark's slot, or kNew
+    double logWeight;   ///< of this, its log density [1/(m rad)] by the chance of the miss it isn't
+    double density;     ///< of the sighting if it is of the landmark [1/(m rad)]
+    SightingRows rows;  ///< for the update, where it is a landmark
+  };
+  /// Begins a scan. \return the sightings.
+  std::vector<Ray> begin(int robot, const core::LandmarkScan& scan, double time);
+  /// What a sighting may be of, as things stand, likeliest first; not of what was seen in this
+  /// scan.  What is not worth a thought beside the likeliest is left out.
+  [[nodiscard]] std::vector<Alternative> alternatives(int robot, const Ray& ray, double time) const;
+  /// After its update: counts a sighting. \return the slot.
+  std::int32_t take(int robot, const Ray& ray, const Alternative& of, double time);
+  /// Ends the scan: landmarks that should have been seen and were not get less likely.
+  /// \return log of the chance of these misses.
+  double miss(int robot, double time);
+
   /// A landmark's identity, or its number in order of discovery.
   [[nodiscard]] int idOf(int slot) const { return entries_[static_cast<std::size_t>(slot)].id; }
 
  private:
+  static constexpr double kReported = 0.5;
   struct Entry
   {
     int id = core::kNoId;
@@ -41,32 +70,40 @@ class Map : public core::LandmarkView
     double lastSeen = 0;
     int rejections = 0;  // sightings with its identity in a row that were elsewhere
     Point2D first;       // its first estimate
+    double existence = 1;
+    bool seen = false;  // in this scan
   };
   [[nodiscard]] bool isConfirmed(const Entry& e) const
   {
-    return e.sightings >= settings_.confirmSightings;
+    return e.sightings >= settings_->confirmSightings && e.existence >= kReported;
   }
+  template <class F>
+  void forPossible(int robot, const Eye& eye, const Ray& ray, double time, F&& f) const;
+  [[nodiscard]] double chanceToSee(int robot, const Eye& eye, int slot) const;
   void matchKnown(const core::LandmarkScan& scan, std::vector<std::int32_t>& matches) const;
   void matchByPlace(int robot, double time, Scan& out);
   void keepInReach(int robot, const core::LandmarkScan& scan, double time);
   [[nodiscard]] bool isInReach(int robot, const core::LandmarkScan& scan) const;
   [[nodiscard]] double slack(int robot, const core::Sighting& s) const;
+  [[nodiscard]] double reachOf(int robot, const core::LandmarkScan& scan) const;
   void forget(int slot);
   void forgetUnconfirmed(double time);
   [[nodiscard]] double noise(const Entry& e, double time) const
   {
-    return settings_.noiseAfter(time - e.lastSeen);
+    return settings_->noiseAfter(time - e.lastSeen);
   }
   void start(int robot, const Ray& ray, int id, double time, const Point2D& from,
              std::int32_t& slot);
 
-  const Settings& settings_;
-  Belief& belief_;
+  const Settings* settings_;
+  Belief* belief_;
   std::vector<Entry> entries_;  // by slot
   std::unordered_map<int, int> slotOf_;
   int nextNumber_ = 0;
   Point2D centre_;  // of the local landmarks
   double reach_ = 0;
+  core::FieldOfView fov_;  // of this scan
+  Point2D from_;           // where the robot was before it
   double largestVar_ = 0;  // of a landmark's place, when they were made local [m²]
 };
 }  // namespace slamot::filters::ekf

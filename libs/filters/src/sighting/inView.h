@@ -12,6 +12,20 @@ inline double normalBelow(double t)
   return 0.5 * std::erfc(-t * 0.70710678118654752);
 }
 
+/// The chance that something is in a field of view whose range [m] and bearing [rad] from there have
+/// these deviations.
+inline double partInView(const core::FieldOfView& fov, double range, double bearing,
+                         double rangeStd, double bearingStd)
+{
+  double in = normalBelow((fov.rangeMax - range) / rangeStd);
+  if (in <= 0) return 0;
+  if (fov.rangeMin > 0) in *= normalBelow((range - fov.rangeMin) / rangeStd);
+  if (fov.bearingMax - fov.bearingMin < math::kTwoPi - 1e-6)
+    in *= normalBelow((bearing - fov.bearingMin) / bearingStd) *
+          normalBelow((fov.bearingMax - bearing) / bearingStd);
+  return in;
+}
+
 /// How much of a thing at (x, y) is in a field of view: soft at the edges, where it may be seen or
 /// not.
 /// \param var largest variance of its place along any axis, plus that of a range [m²].
@@ -20,16 +34,8 @@ inline double partInView(const core::FieldOfView& fov, const Eye& eye, double x,
                          double var, double bearingVar)
 {
   const double dx = x - eye.x, dy = y - eye.y, r = std::hypot(dx, dy), std = std::sqrt(var);
-  double in = normalBelow((fov.rangeMax - r) / std);
-  if (in <= 0) return 0;
-  if (fov.rangeMin > 0) in *= normalBelow((r - fov.rangeMin) / std);
-  if (fov.bearingMax - fov.bearingMin < math::kTwoPi - 1e-6)
-  {
-    const double bearing = math::wrapToPi(std::atan2(dy, dx) - eye.phi);
-    const double turn = std::max(std / std::max(r, std), std::sqrt(bearingVar));
-    in *= normalBelow((bearing - fov.bearingMin) / turn) *
-          normalBelow((fov.bearingMax - bearing) / turn);
-  }
-  return in;
+  if (fov.rangeMax + 4 * std < r) return 0;
+  const double turn = std::max(std / std::max(r, std), std::sqrt(bearingVar));
+  return partInView(fov, r, math::wrapToPi(std::atan2(dy, dx) - eye.phi), std, turn);
 }
 }  // namespace slamot::filters
