@@ -270,21 +270,32 @@ double Map::chanceToSee(int robot, const Eye& eye, int slot) const
          partInView(fov_, r, bearing, std::sqrt(o.s11), std::sqrt(o.s22));
 }
 
+// Hypotheses part over landmarks that exist, most likely.  A sighting that may be of one that most
+// likely does not, or of nothing known, is taken for the former in one hypothesis: take() weighs
+// how likely that was.
 std::vector<Map::Alternative> Map::alternatives(int robot, const Ray& ray, double time) const
 {
   const Eye eye = eyeOf(*belief_, robot);
   const ArrivalSettings& arrival = *settings_->arrival;
-  std::vector<Alternative> out{{kNew, std::log(arrival.newDensity(fov_)), 0, {}}};
+  const double fresh = arrival.newDensity(fov_);
+  std::vector<Alternative> out{{kNew, std::log(fresh), fresh / arrival.detection, {}}};
   forPossible(robot, eye, ray, time,
               [&](int s, const Innovation& o, double n)
               {
                 const Entry& e = entries_[static_cast<std::size_t>(s)];
                 if (e.seen) return;
+                const bool doubted = e.existence < kReported;
                 const double density = std::exp(-0.5 * o.d2) / (math::kTwoPi * std::sqrt(o.det));
+                if (doubted && density <= out.front().density) return;
                 const double missed = 1 - e.existence * chanceToSee(robot, eye, s);
-                out.push_back({s, std::log(e.existence * arrival.detection * density / missed),
-                               density, rowsOf(robot, belief_->landmark(s), o, ray, n)});
-                if (settings_->firstEstimates) deriveAt(e.first, eye, out.back().rows);
+                const double weight = e.existence * arrival.detection * density / missed;
+                Alternative a{s, std::log(doubted ? weight + fresh : weight), density,
+                              rowsOf(robot, belief_->landmark(s), o, ray, n)};
+                if (settings_->firstEstimates) deriveAt(e.first, eye, a.rows);
+                if (doubted)
+                  out.front() = a;
+                else
+                  out.push_back(a);
               });
   std::stable_sort(out.begin(), out.end(),
                    [](const auto& a, const auto& b) { return a.logWeight > b.logWeight; });
@@ -309,7 +320,7 @@ std::int32_t Map::take(int robot, const Ray& ray, const Alternative& of, double 
   }
   ++e.sightings;
   e.lastSeen = time;
-  // That it is of something new all the same is not an hypothesis of its own any more.
+  // It may be of something new all the same.
   const double fresh = arrival.newDensity(fov_);
   const double is =
       e.existence * (arrival.detection * of.density + (1 - arrival.detection) * fresh);
