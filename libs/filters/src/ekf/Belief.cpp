@@ -241,7 +241,7 @@ void Belief::fuse(const Rows& H, const Eigen::MatrixXd& W, const math::Intersect
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(update.reduction);
   const Eigen::MatrixXd turned = W * eigen.eigenvectors();
   // Inverse covariance intersection can add where it reduces elsewhere.
-  const Eigen::VectorXd values = eigen.eigenvalues();
+  const Eigen::VectorXd& values = eigen.eigenvalues();
   if (values.minCoeff() < 0)
     P_.update(turned * values.cwiseMin(0).cwiseAbs().cwiseSqrt().asDiagonal(), 1);
   P_.update(turned * values.cwiseMax(0).cwiseSqrt().asDiagonal(), -1);

@@ -86,12 +86,13 @@ class Search
   double append(int pair)
   {
     const auto k = static_cast<Eigen::Index>(2 * chosen_.size());
+    const Eigen::Index row = 2 * Eigen::Index{pair};
     Eigen::Matrix<double, Eigen::Dynamic, 2> c(k, 2);  // S between the chosen pairs and this one
     for (Eigen::Index i = 0; i < k; i += 2)
-      c.middleRows<2>(i) = S_.block<2, 2>(2 * pair, 2 * chosen_[at(i / 2)]).transpose();
+      c.middleRows<2>(i) = S_.block<2, 2>(row, 2 * Eigen::Index{chosen_[at(i / 2)]}).transpose();
     const auto L = L_.topLeftCorner(k, k).triangularView<Eigen::Lower>();
     L.solveInPlace(c);
-    Matrix2 own = S_.block<2, 2>(2 * pair, 2 * pair) - c.transpose() * c;
+    Matrix2 own = S_.block<2, 2>(row, row) - c.transpose() * c;
     const double a = std::sqrt(own(0, 0)), b = own(1, 0) / a, d = std::sqrt(own(1, 1) - b * b);
     L_.block(k, 0, 2, k) = c.transpose();
     L_.block<2, 2>(k, k) << a, 0, b, d;
