@@ -131,17 +131,18 @@ std::vector<double> byEnumeration(const Belief& belief, const std::vector<Ray>& 
 TEST_F(Several, AreWeighedAsEnumerationDoes)
 {
   // Far away, so that the sightings are all but linear in what is in doubt.
-  const std::vector<Point2D> posts{{30, -0.8}, {30, 0.8}, {31, 2.4}};
+  const std::vector<Point2D> posts{{40, -0.4}, {40, 0.4}, {40.5, 1.2}};
   for (const auto& [truths, off] : std::vector<std::pair<std::vector<Point2D>, double>>{
-           {{{30, 0.1}}, 0}, {{{30, 0.2}, {30, 1.7}}, 0.3}, {{{30.3, 0}, {30.6, 1.7}}, -0.2}})
+           {{{40, 0.05}}, 0}, {{{40, 0.1}, {40, 0.85}}, 0.15}, {{{40.15, 0}, {40.3, 0.85}}, -0.1}})
   {
     make(
-        "hypotheses = 1000\nleast_hypothesis = 1e-5\nnew_gate_probability = 0.999999999999\n"
-        "detection_probability = 0.9\nclutter_per_scan = 20\nnew_per_scan = 5\n");
+        "hypotheses = 1000\nleast_hypothesis = 1e-5\nmerge_distance2 = 0\nnew_gate_probability = "
+        "0.999999999999\n"
+        "detection_probability = 0.9\nclutter_per_scan = 2000\nnew_per_scan = 5\n");
     for (int i = 0; i < 6; ++i) see(posts, {}, 0.002);
     ASSERT_EQ(filter->weights().size(), 1u);
     ASSERT_EQ(mapped(), posts.size());
-    filter->process(0, motion(time += 0.5, {0, off, 0}, {0.5, 0.8, 1e-4}));
+    filter->process(0, motion(time += 0.5, {0, off, 0}, {0.25, 0.4, 1e-4}));
     std::vector<Ray> rays;
     std::vector<core::Sighting> sightings;
     for (const Point2D& p : truths)
@@ -149,7 +150,7 @@ TEST_F(Several, AreWeighedAsEnumerationDoes)
       sightings.push_back(seen({}, p));
       rays.push_back(settings.ray(sightings.back()));
     }
-    const double fresh = 25 / (50 * math::kTwoPi);
+    const double fresh = 2005 / (50 * math::kTwoPi);
     const auto expected = byEnumeration(filter->best().belief(), rays, 3, 0.9, fresh);
     filter->process(0, scan(++time, sightings));
     const auto weights = filter->weights();

@@ -59,6 +59,7 @@ core::Update EngineOf<Motion>::take(int robot, const core::Step& step,
                                     const core::LandmarkScan* landmarks)
 {
   core::Update out;
+  wrapAngles();  // hypotheses have taken landmarks already
   if (landmarks || step.blobs)
   {
     takeScan(belief_.robot(robot), step, landmarks, out.pairings);

@@ -12,6 +12,8 @@ using Kind = core::Pairing::Outcome;
 
 namespace
 {
+constexpr int kMostAtOnce = 3;  // times those kept: some will be one
+
 /// Sorts by weight, and leaves out those beyond `most` and less likely than `least` of the first.
 template <class T>
 void cut(std::vector<T>& list, int most, double least)
@@ -26,18 +28,19 @@ void cut(std::vector<T>& list, int most, double least)
 }
 
 /// Whether two put the robots at the same places, as far as they know.
-bool agree(const Belief& a, const Belief& b)
+bool agree(const Belief& a, const Belief& b, double distance2)
 {
-  constexpr double kShift = 0.1, kGrowth = 0.2;  // squared deviations; of a variance
+  constexpr double kGrowth = 0.2;                    // of a variance
+  const Matrix3 floor = 1e-8 * Matrix3::Identity();  // a start may be known exactly
   for (int r = 0; r < a.robots(); ++r)
   {
     const int j = a.robot(r);
-    const Matrix3 A = a.P().block<3, 3>(j, j), B = b.P().block<3, 3>(j, j);
+    const Matrix3 A = a.P().block<3, 3>(j, j) + floor, B = b.P().block<3, 3>(j, j) + floor;
     Vector3 d = a.x().segment<3>(j) - b.x().segment<3>(j);
     d[2] = math::wrapToPi(d[2]);
     const Eigen::LDLT<Matrix3> ldlt(A);
     // tr(A⁻¹ B) is 3 where they agree.
-    if (!(d.dot(ldlt.solve(d)) < kShift && std::abs(ldlt.solve(B).trace() - 3) < 3 * kGrowth))
+    if (!(d.dot(ldlt.solve(d)) < distance2 && std::abs(ldlt.solve(B).trace() - 3) < 3 * kGrowth))
       return false;
   }
   return true;
@@ -70,6 +73,7 @@ core::Update Hypotheses::process(int robot, const core::Step& step)
     {
       List children = branch(std::move(h), robot, *step.landmarks, step.time);
       std::move(children.begin(), children.end(), std::back_inserter(next));
+      cut(next, kMostAtOnce * settings_.arrival->most, settings_.arrival->least);
     }
     list_ = std::move(next);
     keepLikeliest();
@@ -89,9 +93,10 @@ void Hypotheses::keepLikeliest()
   List kept;
   for (Weighted& h : list_)
   {
-    const auto same =
-        std::find_if(kept.begin(), kept.end(),
-                     [&](Weighted& k) { return agree(k.filter->belief(), h.filter->belief()); });
+    const auto same = std::find_if(
+        kept.begin(), kept.end(),
+        [&](Weighted& k)
+        { return agree(k.filter->belief(), h.filter->belief(), settings_.arrival->merge); });
     if (same == kept.end())
       kept.push_back(std::move(h));
     else
@@ -149,7 +154,7 @@ void Hypotheses::takeUndoubted(Weighted& of, int robot, const std::vector<Ray>& 
     rows.push_back(a.rows);
     densities += std::log(a.density);
     of.logWeight += a.logWeight;
-    const std::int32_t slot = map.take(robot, rays[k], a, time);
+    const std::int32_t slot = map.take(robot, rays[k], k, a, time);
     of.pairings.push_back({false, static_cast<int>(k), Kind::kKnown, map.idOf(slot)});
   }
   // What they are likely together, not each by itself.
@@ -175,7 +180,7 @@ void Hypotheses::takeOne(Weighted& of, int robot, const Ray& ray, std::size_t k,
     wrapHeading(of.filter->belief(), robot);
   }
   Map& map = of.filter->map();
-  const std::int32_t slot = map.take(robot, ray, as, time);
+  const std::int32_t slot = map.take(robot, ray, k, as, time);
   of.logWeight += as.logWeight;
   of.pairings.push_back(
       {false, static_cast<int>(k), as.thing == kNew ? Kind::kNew : Kind::kKnown, map.idOf(slot)});

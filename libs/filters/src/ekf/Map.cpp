@@ -88,7 +88,7 @@ double Map::reachOf(int robot, const core::LandmarkScan& scan) const
   double reach = 0;
   for (const core::Sighting& s : scan.sightings) reach = std::max(reach, s.range + slack(robot, s));
   core::Sighting farthest;
-  farthest.range = scan.fov.rangeMax;
+  farthest.range = fov_.rangeMax;
   return settings_->arrival ? std::max(reach, farthest.range + slack(robot, farthest)) : reach;
 }
 
@@ -241,16 +241,35 @@ std::vector<std::int32_t> Map::settle(int robot, const core::LandmarkScan& scan,
       entry.lastSeen = time;
     }
     else if (out[k] == kNew)
-      start(robot, matched.rays[k], scan.sightings[k].id, time, matched.from, out[k]);
+    {
+      const bool known = settings_->association == Association::kKnown;
+      start(robot, matched.rays[k], known ? scan.sightings[k].id : nextNumber_++, time,
+            matched.from, out[k]);
+    }
   }
   forgetUnconfirmed(time);
   return out;
 }
 
+// Where nobody tells how far a sensor sees, it is as far as it has seen yet.
+void Map::look(const core::LandmarkScan& scan)
+{
+  constexpr double kLeast = 0.1;
+  const double untold = core::FieldOfView{}.rangeMax;
+  fov_ = scan.fov;
+  for (const core::Sighting& s : scan.sightings) farthest_ = std::max(farthest_, s.range);
+  if (fov_.rangeMax >= untold) fov_.rangeMax = farthest_;
+  fov_.rangeMax = std::max(fov_.rangeMax, fov_.rangeMin + kLeast);
+  fov_.bearingMax = std::max(fov_.bearingMax, fov_.bearingMin + kLeast);
+}
+
 std::vector<Ray> Map::begin(int robot, const core::LandmarkScan& scan, double time)
 {
+  look(scan);
   keepInReach(robot, scan, time);
-  fov_ = scan.fov;
+  scanNumber_ = nextNumber_;
+  nextNumber_ += static_cast<int>(scan.sightings.size());
+  missed_ = {};
   from_ = {belief_->x()[robot], belief_->x()[robot + 1]};
   for (Entry& e : entries_) e.seen = false;
   std::vector<Ray> rays;
@@ -278,7 +297,10 @@ std::vector<Map::Alternative> Map::alternatives(int robot, const Ray& ray, doubl
   const Eye eye = eyeOf(*belief_, robot);
   const ArrivalSettings& arrival = *settings_->arrival;
   const double fresh = arrival.newDensity(fov_);
-  std::vector<Alternative> out{{kNew, std::log(fresh), fresh / arrival.detection, {}}};
+  Eye from = eye;  // where first estimates put it
+  from.x = from_.x;
+  from.y = from_.y;
+  std::vector<Alternative> out{{kNew, std::log(fresh), 1, fresh / arrival.detection, {}}};
   forPossible(robot, eye, ray, time,
               [&](int s, const Innovation& o, double n)
               {
@@ -289,9 +311,9 @@ std::vector<Map::Alternative> Map::alternatives(int robot, const Ray& ray, doubl
                 if (doubted && density <= out.front().density) return;
                 const double missed = 1 - e.existence * chanceToSee(robot, eye, s);
                 const double weight = e.existence * arrival.detection * density / missed;
-                Alternative a{s, std::log(doubted ? weight + fresh : weight), density,
+                Alternative a{s, std::log(doubted ? weight + fresh : weight), missed, density,
                               rowsOf(robot, belief_->landmark(s), o, ray, n)};
-                if (settings_->firstEstimates) deriveAt(e.first, eye, a.rows);
+                if (settings_->firstEstimates) deriveAt(e.first, from, a.rows);
                 if (doubted)
                   out.front() = a;
                 else
@@ -306,18 +328,19 @@ std::vector<Map::Alternative> Map::alternatives(int robot, const Ray& ray, doubl
   return out;
 }
 
-std::int32_t Map::take(int robot, const Ray& ray, const Alternative& of, double time)
+std::int32_t Map::take(int robot, const Ray& ray, std::size_t k, const Alternative& of, double time)
 {
   const ArrivalSettings& arrival = *settings_->arrival;
   std::int32_t slot = of.thing;
-  if (slot == kNew) start(robot, ray, core::kNoId, time, from_, slot);
+  if (slot == kNew) start(robot, ray, scanNumber_ + static_cast<int>(k), time, from_, slot);
   Entry& e = entries_[static_cast<std::size_t>(slot)];
   e.seen = true;
   if (of.thing == kNew)
   {
-    e.existence = arrival.firstExistence();
+    e.existence = std::min(kMostExistence, arrival.firstExistence());
     return slot;
   }
+  missed_.times(of.missed);
   ++e.sightings;
   e.lastSeen = time;
   // It may be of something new all the same.
@@ -331,7 +354,6 @@ std::int32_t Map::take(int robot, const Ray& ray, const Alternative& of, double 
 double Map::miss(int robot, double time)
 {
   const Eye eye = eyeOf(*belief_, robot);
-  LogProduct chance;
   for (int s = 0; s < static_cast<int>(entries_.size()); ++s)
   {
     Entry& e = entries_[static_cast<std::size_t>(s)];
@@ -339,12 +361,12 @@ double Map::miss(int robot, double time)
     const double seen = chanceToSee(robot, eye, s);
     if (seen <= 0) continue;
     const double missed = 1 - e.existence * seen;
-    chance.times(missed);
+    missed_.times(missed);
     e.existence *= (1 - seen) / missed;
     if (e.existence < kLeastExistence) forget(s);
   }
   forgetUnconfirmed(time);
-  return chance.log();
+  return missed_.log();
 }
 
 void Map::forget(int slot)
@@ -381,12 +403,11 @@ void Map::start(int robot, const Ray& ray, int id, double time, const Point2D& f
   slot = belief_->addLandmark(robot, place, placeByRobot(eye, place.mean));
   const auto s = static_cast<std::size_t>(slot);
   if (s >= entries_.size()) entries_.resize(s + 1);
-  const bool known = settings_->association == Association::kKnown;
   entries_[s] = {};
-  entries_[s].id = known ? id : nextNumber_++;
+  entries_[s].id = id;
   entries_[s].sightings = 1;
   entries_[s].lastSeen = time;
   entries_[s].first = place.mean;
-  if (known) slotOf_[id] = slot;
+  if (settings_->association == Association::kKnown) slotOf_[id] = slot;
 }
 }  // namespace slamot::filters::ekf

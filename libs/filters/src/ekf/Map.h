@@ -44,7 +44,8 @@ class Map : public core::LandmarkView
   {
     std::int32_t thing;  ///< a landmark's slot, or kNew
     double logWeight;   ///< of this, its log density [1/(m rad)] by the chance of the miss it isn't
-    double density;     ///< of the sighting if it is of the landmark [1/(m rad)]
+    double missed;      ///< that chance; 1 where it is nothing known
+    double density;     ///< of the sighting if it is of the landmark and that exists [1/(m rad)]
     SightingRows rows;  ///< for the update, where it is a landmark
   };
   /// Begins a scan. \return the sightings.
@@ -52,10 +53,11 @@ class Map : public core::LandmarkView
   /// What a sighting may be of, as things stand, likeliest first; not of what was seen in this
   /// scan.  What is not worth a thought beside the likeliest is left out.
   [[nodiscard]] std::vector<Alternative> alternatives(int robot, const Ray& ray, double time) const;
-  /// After its update: counts a sighting. \return the slot.
-  std::int32_t take(int robot, const Ray& ray, const Alternative& of, double time);
+  /// Counts the scan's k-th sighting, of a landmark or, after the scan's update, of nothing known.
+  /// \return the slot.
+  std::int32_t take(int robot, const Ray& ray, std::size_t k, const Alternative& of, double time);
   /// Ends the scan: landmarks that should have been seen and were not get less likely.
-  /// \return log of the chance of these misses.
+  /// \return log of the chance to miss all landmarks, which seen ones' alternatives are weighed by.
   double miss(int robot, double time);
 
   /// A landmark's identity, or its number in order of discovery.
@@ -92,6 +94,7 @@ class Map : public core::LandmarkView
   {
     return settings_->noiseAfter(time - e.lastSeen);
   }
+  void look(const core::LandmarkScan& scan);
   void start(int robot, const Ray& ray, int id, double time, const Point2D& from,
              std::int32_t& slot);
 
@@ -100,7 +103,11 @@ class Map : public core::LandmarkView
   std::vector<Entry> entries_;  // by slot
   std::unordered_map<int, int> slotOf_;
   int nextNumber_ = 0;
-  Point2D centre_;  // of the local landmarks
+  int scanNumber_ = 0;  // of what this scan's first sighting would start: alike in all hypotheses
+  LogProduct
+      missed_;  // chance of this scan's misses, those of seen landmarks' alternatives included
+  double farthest_ = 0;  // sighting yet [m]
+  Point2D centre_;       // of the local landmarks
   double reach_ = 0;
   core::FieldOfView fov_;  // of this scan
   Point2D from_;           // where the robot was before it

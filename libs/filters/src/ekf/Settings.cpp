@@ -7,12 +7,13 @@ namespace
 std::optional<ArrivalSettings> readArrival(core::Params& p, bool several)
 {
   // Known, so that --set can change the association.
-  p.allowUnused({"hypotheses", "least_hypothesis", "detection_probability", "clutter_per_scan",
-                 "new_per_scan"});
+  p.allowUnused({"hypotheses", "least_hypothesis", "merge_distance2", "detection_probability",
+                 "clutter_per_scan", "new_per_scan"});
   if (!several) return {};
   ArrivalSettings s{};
-  s.most = p.integer("hypotheses", 1, 10000, 10);
+  s.most = p.integer("hypotheses", 1, 1000, 10);
   s.least = p.inRange("least_hypothesis", 1e-12, 1, 1e-2);
+  s.merge = p.nonNegative("merge_distance2", 0.1);
   s.detection = p.inRange("detection_probability", 1e-6, 0.999, 0.95);
   s.clutter = p.positive("clutter_per_scan", 0.1);
   s.arrivals = p.positive("new_per_scan", 0.1);

@@ -19,6 +19,7 @@ struct ArrivalSettings
 {
   int most;          ///< hypotheses kept
   double least;      ///< those less likely than this, by the best one, are dropped
+  double merge;      ///< squared deviations between poses within which two hypotheses are one
   double detection;  ///< chance to see a landmark in view
   double clutter;    ///< false sightings a scan, mean, uniform over the field of view
   double arrivals;   ///< landmarks seen for the first time a scan, mean, likewise
