@@ -1,5 +1,5 @@
-# Headers of others that most sources include, parsed once for each kind of target: half the time to
-# build. None of the project's own, or each change of one would build everything again. Sources include
+# Headers of others that most sources include, parsed once for each kind of target: a quarter to a
+# third of a source's time to build. None of the project's own, or each change of one would build everything again. Sources include
 # what they use all the same: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without, as do compilers other
 # than GCC, for which this was not tried (clang's hold times of files, which defeats ccache).
 if(NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)

@@ -287,6 +287,43 @@ TEST_F(Several, StartLandmarksAmongManyFalseAlarms)
   EXPECT_LE(mapped(), posts.size() + 1);
 }
 
+// Where nobody tells how far the sensor sees, landmarks beyond its reach are not missed.
+TEST_F(Several, KeepAMapWithoutAFieldOfView)
+{
+  make("");
+  const auto seeUntold = [&](const Pose2D& from, const Point2D& p)
+  {
+    core::Step step = scan(++time, {seen(from, p)});
+    step.landmarks->fov = {};
+    filter->process(0, step);
+  };
+  for (int i = 0; i < 5; ++i) seeUntold({}, {10, 0});
+  filter->process(0, motion(time += 0.5, {500, 0, 0}, {0.1, 0.1, 0.01}));
+  for (int i = 0; i < 30; ++i) seeUntold({500, 0, 0}, {510, 0});
+  EXPECT_EQ(mapped(), 2u);
+}
+
+TEST_F(Several, AreAllToldOfEvidence)
+{
+  make("clutter_per_scan = 20\n");
+  const std::vector<Point2D> posts{{20, -0.8}, {20, 0.8}};
+  for (int i = 0; i < 6; ++i) see(posts, {}, 0.002);
+  filter->process(0, motion(time += 0.5, {0, 0, 0}, {0.1, 1, 1e-3}));
+  see({{20, 0.1}});
+  ASSERT_GT(filter->weights().size(), 1u);
+  core::Evidence told;  // that the robot slipped up: the sighting was of the lower post
+  told.H = Eigen::MatrixXd::Identity(2, 3);
+  told.innovation = Vector2(0, 0.9 - filter->estimate(0).robot.mean.y);
+  told.cov = 1e-4 * Matrix2::Identity();
+  told.independent = told.cov;
+  const auto weights = filter->weights();
+  EXPECT_TRUE(filter->fuse(told, {}).fused);
+  EXPECT_EQ(filter->weights(), weights);  // none was lost
+  told.H = Eigen::MatrixXd::Identity(2, 5);
+  EXPECT_THROW(filter->fuse(told, {}), core::Error);
+  EXPECT_EQ(filter->weights(), weights);
+}
+
 TEST(Slamot, ObeysTheFilterLaws)
 {
   registerAll();

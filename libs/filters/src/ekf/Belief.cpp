@@ -139,6 +139,22 @@ void Belief::move(int j, const Eigen::Ref<const Eigen::VectorXd>& mean,
     rest_->phi.middleRows(j, mean.size()) = (F * rest_->phi.middleRows(j, F.cols())).eval();
 }
 
+namespace
+{
+/// H M.
+Eigen::MatrixXd times(const std::vector<SightingRows>& rows, const Eigen::MatrixXd& M)
+{
+  Eigen::MatrixXd out(2 * static_cast<Eigen::Index>(rows.size()), M.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    auto two = out.middleRows<2>(2 * static_cast<Eigen::Index>(k));
+    two.noalias() = rows[k].byRobot * M.middleRows<3>(rows[k].robot);
+    two.noalias() += rows[k].byObject * M.middleRows<2>(rows[k].object);
+  }
+  return out;
+}
+}  // namespace
+
 double Belief::update(const std::vector<SightingRows>& rows)
 {
   const auto m = static_cast<Eigen::Index>(2 * rows.size());
@@ -158,18 +174,7 @@ double Belief::update(const std::vector<SightingRows>& rows)
     nu.segment<2>(k) = row.innovation;
     variance.segment<2>(k) = row.variance;
   }
-  const auto timesH = [&](const Eigen::MatrixXd& M)
-  {
-    Eigen::MatrixXd out(m, M.cols());
-    for (Eigen::Index k = 0; k < m; k += 2)
-    {
-      const SightingRows& row = rows[static_cast<std::size_t>(k / 2)];
-      out.middleRows<2>(k).noalias() = row.byRobot * M.middleRows<3>(row.robot);
-      out.middleRows<2>(k).noalias() += row.byObject * M.middleRows<2>(row.object);
-    }
-    return out;
-  };
-  Eigen::MatrixXd S = timesH(W_);
+  Eigen::MatrixXd S = times(rows, W_);
   S.diagonal() += variance;
   const Eigen::LLT<Eigen::MatrixXd> llt(S);
   if (llt.info() != Eigen::Success)
@@ -184,7 +189,7 @@ double Belief::update(const std::vector<SightingRows>& rows)
   const double logDensity = -0.5 * (nu.squaredNorm() + m * std::log(math::kTwoPi)) -
                             llt.matrixLLT().diagonal().array().log().sum();
   if (!rest_) return logDensity;
-  Eigen::MatrixXd U = timesH(rest_->phi);
+  Eigen::MatrixXd U = times(rows, rest_->phi);
   llt.matrixL().solveInPlace(U);
   rest_->take(U, nu);
   addProduct(-1, ReadOnly::of(W_), ReadOnly::transposeOf(U), rest_->phi.data(),

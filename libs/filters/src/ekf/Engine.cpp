@@ -63,10 +63,8 @@ core::Update EngineOf<Motion>::take(int robot, const core::Step& step,
   if (landmarks || step.blobs)
   {
     takeScan(belief_.robot(robot), step, landmarks, out.pairings);
-    // In polar coordinates a turn of the robot moves the bearing alone, by as much.
-    out.diagnostics.close = static_cast<int>(std::count_if(
-        rows_.begin(), rows_.end(),
-        [](const SightingRows& r) { return r.byRobot(0, 2) != 0 || r.byRobot(1, 2) != -1; }));
+    out.diagnostics.close =
+        static_cast<int>(std::count_if(rows_.begin(), rows_.end(), isClose));
   }
   if (step.blobs) dropLost(step.time);
   if (!belief_.x().allFinite() || !belief_.P().diagonal().allFinite()) failOverflow();

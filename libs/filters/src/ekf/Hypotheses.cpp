@@ -56,7 +56,7 @@ void wrapHeading(Belief& belief, int robot)
 Hypotheses::Hypotheses(const Settings& settings, std::unique_ptr<Hypothesis> first)
     : settings_(settings)
 {
-  list_.push_back({std::move(first), 0, {}});
+  list_.push_back({std::move(first), 0, {}, 0});
 }
 
 core::Update Hypotheses::process(int robot, const core::Step& step)
@@ -64,6 +64,7 @@ core::Update Hypotheses::process(int robot, const core::Step& step)
   for (Weighted& h : list_)
   {
     h.pairings.clear();
+    h.close = 0;
     h.filter->move(robot, step);
   }
   if (step.landmarks)
@@ -83,6 +84,7 @@ core::Update Hypotheses::process(int robot, const core::Step& step)
     out = list_[i].filter->take(robot, step, nullptr);  // the last is the likeliest's
   out.pairings.insert(out.pairings.begin(), list_.front().pairings.begin(),
                       list_.front().pairings.end());
+  out.diagnostics.close += list_.front().close;
   return out;
 }
 
@@ -152,6 +154,7 @@ void Hypotheses::takeUndoubted(Weighted& of, int robot, const std::vector<Ray>& 
       continue;
     }
     rows.push_back(a.rows);
+    of.close += isClose(a.rows);
     densities += std::log(a.density);
     of.logWeight += a.logWeight;
     const std::int32_t slot = map.take(robot, rays[k], k, a, time);
@@ -177,6 +180,7 @@ void Hypotheses::takeOne(Weighted& of, int robot, const Ray& ray, std::size_t k,
   if (as.thing != kNew)
   {
     of.filter->belief().update({as.rows});
+    of.close += isClose(as.rows);
     wrapHeading(of.filter->belief(), robot);
   }
   Map& map = of.filter->map();
@@ -209,8 +213,7 @@ Hypotheses::List Hypotheses::split(List&& of, int robot, const Ray& ray, std::si
     const std::size_t i = children[c].parent;
     const bool isLast = std::none_of(children.begin() + static_cast<std::ptrdiff_t>(c) + 1,
                                      children.end(), [&](const Child& o) { return o.parent == i; });
-    out.push_back({isLast ? std::move(of[i].filter) : of[i].filter->clone(), of[i].logWeight,
-                   of[i].pairings});
+    out.push_back({isLast ? std::move(of[i].filter) : of[i].filter->clone(), of[i].logWeight, of[i].pairings, of[i].close});
     takeOne(out.back(), robot, ray, k, children[c].as, time);
   }
   return out;

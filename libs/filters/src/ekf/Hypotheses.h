@@ -39,6 +39,7 @@ class Hypotheses : public EkfSlamot::Engine
     std::unique_ptr<Hypothesis> filter;
     double logWeight;
     std::vector<core::Pairing> pairings;  // of this scan's landmark sightings
+    int close = 0;                        // of them: taken in the frame of their rays
   };
   using List = std::vector<Weighted>;
   /// What one hypothesis becomes with a scan.

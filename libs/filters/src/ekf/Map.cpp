@@ -2,7 +2,6 @@
 
 #include "JointCompatibility.h"
 #include "relate.h"
-#include "sighting/inView.h"
 
 #include <set>
 #include <tuple>
@@ -11,32 +10,7 @@ namespace slamot::filters::ekf
 {
 namespace
 {
-// What was seen often and is missed this often, is gone all the same; what is less likely than that
-// is not worth its place in the covariance.
-constexpr double kMostExistence = 1 - 1e-5, kLeastExistence = 1e-3;
-constexpr double kExactRange = 1e-3, kExactBearing = 1e-4;  // deviations [m], [rad]
 constexpr int kMostRejections = 3;  // in a row, and no fewer than the sightings before
-
-/// The rows' derivatives as if the landmark were where it was first thought to be.  Derivatives at
-/// ever new estimates make the filter believe that it learns of its heading in the map what no
-/// sighting can tell; at first estimates, what can't be observed stays so: Huang, Mourikis,
-/// Roumeliotis 2008.
-void deriveAt(const Point2D& first, const Eye& eye, SightingRows& row)
-{
-  const Vector2 d(first.x - eye.x, first.y - eye.y);
-  if (row.byRobot(0, 2) != 0 || row.byRobot(1, 2) != -1)  // near: in the frame of the ray
-  {
-    const double perMetre = row.byObject.row(1).norm();
-    const Vector2 inFrame = row.byObject * d;
-    row.byRobot.col(2) << inFrame[1] / perMetre, -inFrame[0] * perMetre;
-    return;
-  }
-  const double q = d.squaredNorm(), r = std::sqrt(q);
-  constexpr double kMin = models::RangeBearing::kSmallestRange;
-  if (!(r >= kMin)) return;
-  row.byObject << d[0] / r, d[1] / r, -d[1] / q, d[0] / q;
-  row.byRobot.leftCols<2>() = -row.byObject;
-}
 }  // namespace
 
 void Map::visit(const std::function<void(const core::LandmarkEstimate&)>& visitor) const
@@ -172,11 +146,10 @@ void Map::matchKnown(const core::LandmarkScan& scan, std::vector<std::int32_t>& 
   }
 }
 
-// f(slot, innovation, what multiplies the noise) for every local landmark that a sighting may be
-// of.
-template <class F>
-void Map::forPossible(int robot, const Eye& eye, const Ray& ray, double time, F&& f) const
+std::vector<Map::Possible> Map::possible(int robot, const Eye& eye, const Ray& ray,
+                                         double time) const
 {
+  std::vector<Possible> out;
   const auto& x = belief_->x();
   const auto spread = [&](int j) { return belief_->P()(j, j) + belief_->P()(j + 1, j + 1); };
   const Point2D at = invert(eye, ray).mean;
@@ -193,8 +166,9 @@ void Map::forPossible(int robot, const Eye& eye, const Ray& ray, double time, F&
     Innovation o;
     if (dx * dx + dy * dy <= 2 * settings_->gates.outer * most &&
         relate(*belief_, robot, j, eye, ray, o, n) && o.d2 <= settings_->gates.outer)
-      f(s, o, n);
+      out.push_back({s, o, n});
   }
+  return out;
 }
 
 void Map::matchByPlace(int robot, double time, Scan& out)
@@ -203,16 +177,14 @@ void Map::matchByPlace(int robot, double time, Scan& out)
   std::vector<Candidate> candidates;
   std::vector<PossiblePair> pairs;
   for (std::size_t k = 0; k < out.rays.size(); ++k)
-    forPossible(
-        robot, eye, out.rays[k], time,
-        [&](int s, const Innovation& o, double n)
-        {
-          const bool inGate = o.d2 <= settings_->gates.inner;
-          candidates.push_back({o.d2 + std::log(o.det), static_cast<std::int32_t>(k), s, inGate});
-          if (inGate)
-            pairs.push_back({static_cast<int>(k), s,
-                             rowsOf(robot, belief_->landmark(s), o, out.rays[k], n), o.d2});
-        });
+    for (const auto& [slot, o, n] : possible(robot, eye, out.rays[k], time))
+    {
+      const bool inGate = o.d2 <= settings_->gates.inner;
+      candidates.push_back({o.d2 + std::log(o.det), static_cast<std::int32_t>(k), slot, inGate});
+      if (inGate)
+        pairs.push_back({static_cast<int>(k), slot,
+                         rowsOf(robot, belief_->landmark(slot), o, out.rays[k], n), o.d2});
+    }
   if (settings_->association == Association::kNearest)
     return matchGreedily(candidates, out.matches);
   // The nearest first, so that a search that must end early has tried those.
@@ -249,124 +221,6 @@ std::vector<std::int32_t> Map::settle(int robot, const core::LandmarkScan& scan,
   }
   forgetUnconfirmed(time);
   return out;
-}
-
-// Where nobody tells how far a sensor sees, it is as far as it has seen yet.
-void Map::look(const core::LandmarkScan& scan)
-{
-  constexpr double kLeast = 0.1;
-  const double untold = core::FieldOfView{}.rangeMax;
-  fov_ = scan.fov;
-  for (const core::Sighting& s : scan.sightings) farthest_ = std::max(farthest_, s.range);
-  if (fov_.rangeMax >= untold) fov_.rangeMax = farthest_;
-  fov_.rangeMax = std::max(fov_.rangeMax, fov_.rangeMin + kLeast);
-  fov_.bearingMax = std::max(fov_.bearingMax, fov_.bearingMin + kLeast);
-}
-
-std::vector<Ray> Map::begin(int robot, const core::LandmarkScan& scan, double time)
-{
-  look(scan);
-  keepInReach(robot, scan, time);
-  scanNumber_ = nextNumber_;
-  nextNumber_ += static_cast<int>(scan.sightings.size());
-  missed_ = {};
-  from_ = {belief_->x()[robot], belief_->x()[robot + 1]};
-  for (Entry& e : entries_) e.seen = false;
-  std::vector<Ray> rays;
-  for (const core::Sighting& s : scan.sightings) rays.push_back(settings_->ray(s));
-  return rays;
-}
-
-double Map::chanceToSee(int robot, const Eye& eye, int slot) const
-{
-  const int j = belief_->landmark(slot);
-  const double dx = belief_->x()[j] - eye.x, dy = belief_->x()[j + 1] - eye.y;
-  const double r = std::hypot(dx, dy), bearing = math::wrapToPi(std::atan2(dy, dx) - eye.phi);
-  Innovation o;  // of a sighting without error, for the deviations of what is expected
-  if (!relate(*belief_, robot, j, eye, Ray::of(r, bearing, kExactRange, kExactBearing), o))
-    return 0.5 * settings_->arrival->detection;
-  return settings_->arrival->detection *
-         partInView(fov_, r, bearing, std::sqrt(o.s11), std::sqrt(o.s22));
-}
-
-// Hypotheses part over landmarks that exist, most likely.  A sighting that may be of one that most
-// likely does not, or of nothing known, is taken for the former in one hypothesis: take() weighs
-// how likely that was.
-std::vector<Map::Alternative> Map::alternatives(int robot, const Ray& ray, double time) const
-{
-  const Eye eye = eyeOf(*belief_, robot);
-  const ArrivalSettings& arrival = *settings_->arrival;
-  const double fresh = arrival.newDensity(fov_);
-  Eye from = eye;  // where first estimates put it
-  from.x = from_.x;
-  from.y = from_.y;
-  std::vector<Alternative> out{{kNew, std::log(fresh), 1, fresh / arrival.detection, {}}};
-  forPossible(robot, eye, ray, time,
-              [&](int s, const Innovation& o, double n)
-              {
-                const Entry& e = entries_[static_cast<std::size_t>(s)];
-                if (e.seen) return;
-                const bool doubted = e.existence < kReported;
-                const double density = std::exp(-0.5 * o.d2) / (math::kTwoPi * std::sqrt(o.det));
-                if (doubted && density <= out.front().density) return;
-                const double missed = 1 - e.existence * chanceToSee(robot, eye, s);
-                const double weight = e.existence * arrival.detection * density / missed;
-                Alternative a{s, std::log(doubted ? weight + fresh : weight), missed, density,
-                              rowsOf(robot, belief_->landmark(s), o, ray, n)};
-                if (settings_->firstEstimates) deriveAt(e.first, from, a.rows);
-                if (doubted)
-                  out.front() = a;
-                else
-                  out.push_back(a);
-              });
-  std::stable_sort(out.begin(), out.end(),
-                   [](const auto& a, const auto& b) { return a.logWeight > b.logWeight; });
-  const double least = out.front().logWeight + std::log(0.1 * arrival.least);
-  out.erase(
-      std::find_if(out.begin() + 1, out.end(), [&](const auto& a) { return a.logWeight < least; }),
-      out.end());
-  return out;
-}
-
-std::int32_t Map::take(int robot, const Ray& ray, std::size_t k, const Alternative& of, double time)
-{
-  const ArrivalSettings& arrival = *settings_->arrival;
-  std::int32_t slot = of.thing;
-  if (slot == kNew) start(robot, ray, scanNumber_ + static_cast<int>(k), time, from_, slot);
-  Entry& e = entries_[static_cast<std::size_t>(slot)];
-  e.seen = true;
-  if (of.thing == kNew)
-  {
-    e.existence = std::min(kMostExistence, arrival.firstExistence());
-    return slot;
-  }
-  missed_.times(of.missed);
-  ++e.sightings;
-  e.lastSeen = time;
-  // It may be of something new all the same.
-  const double fresh = arrival.newDensity(fov_);
-  const double is =
-      e.existence * (arrival.detection * of.density + (1 - arrival.detection) * fresh);
-  e.existence = std::min(kMostExistence, is / (is + (1 - e.existence) * fresh));
-  return slot;
-}
-
-double Map::miss(int robot, double time)
-{
-  const Eye eye = eyeOf(*belief_, robot);
-  for (int s = 0; s < static_cast<int>(entries_.size()); ++s)
-  {
-    Entry& e = entries_[static_cast<std::size_t>(s)];
-    if (e.sightings == 0 || e.seen || belief_->landmark(s) < 0) continue;
-    const double seen = chanceToSee(robot, eye, s);
-    if (seen <= 0) continue;
-    const double missed = 1 - e.existence * seen;
-    missed_.times(missed);
-    e.existence *= (1 - seen) / missed;
-    if (e.existence < kLeastExistence) forget(s);
-  }
-  forgetUnconfirmed(time);
-  return missed_.log();
 }
 
 void Map::forget(int slot)

@@ -79,8 +79,15 @@ class Map : public core::LandmarkView
   {
     return e.sightings >= settings_->confirmSightings && e.existence >= kReported;
   }
-  template <class F>
-  void forPossible(int robot, const Eye& eye, const Ray& ray, double time, F&& f) const;
+  /// A landmark that a sighting may be of.
+  struct Possible
+  {
+    int slot;
+    Innovation innovation;
+    double noise;  ///< what multiplies the sighting's variances
+  };
+  [[nodiscard]] std::vector<Possible> possible(int robot, const Eye& eye, const Ray& ray,
+                                               double time) const;
   [[nodiscard]] double chanceToSee(int robot, const Eye& eye, int slot) const;
   void matchKnown(const core::LandmarkScan& scan, std::vector<std::int32_t>& matches) const;
   void matchByPlace(int robot, double time, Scan& out);

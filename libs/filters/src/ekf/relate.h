@@ -47,6 +47,34 @@ inline SightingRows rowsOf(int robot, int object, const Innovation& o, const Ray
   return out;
 }
 
+/// Whether a sighting is taken in the frame of its ray: in polar coordinates a turn of the robot moves
+/// the bearing alone, by as much.
+inline bool isClose(const SightingRows& row)
+{
+  return row.byRobot(0, 2) != 0 || row.byRobot(1, 2) != -1;
+}
+
+/// The rows' derivatives as if the landmark were where it was first thought to be.  Derivatives at
+/// ever new estimates make the filter believe that it learns of its heading in the map what no
+/// sighting can tell; at first estimates, what can't be observed stays so: Huang, Mourikis,
+/// Roumeliotis 2008.
+inline void deriveAt(const Point2D& first, const Eye& eye, SightingRows& row)
+{
+  const Vector2 d(first.x - eye.x, first.y - eye.y);
+  if (isClose(row))
+  {
+    const double perMetre = row.byObject.row(1).norm();
+    const Vector2 inFrame = row.byObject * d;
+    row.byRobot.col(2) << inFrame[1] / perMetre, -inFrame[0] * perMetre;
+    return;
+  }
+  const double q = d.squaredNorm(), r = std::sqrt(q);
+  constexpr double kMin = models::RangeBearing::kSmallestRange;
+  if (!(r >= kMin)) return;
+  row.byObject << d[0] / r, d[1] / r, -d[1] / q, d[0] / q;
+  row.byRobot.leftCols<2>() = -row.byObject;
+}
+
 /// A robot's pose with sine and cosine of its heading.
 inline Eye eyeOf(const Belief& belief, int robot)
 {
