@@ -1,4 +1,4 @@
-#include "sighting/Sighting.h"
+#include "sighting/unscentedSighting.h"
 
 #include "LinearSighting.h"
 
@@ -279,6 +279,42 @@ TEST(WithPose, AddsThePosesOwnUncertainty)
     expectClose(p.d2, nu(o).dot(full.inverse() * nu(o)));
     expectClose(withPose(o, Matrix3::Zero()).d2, o.d2);
   }
+}
+
+TEST(IsBeyond, RejectsOnlyWhatEveryFrameRejects)
+{
+  constexpr double kGate = 13.8;
+  RandomStream random{6};
+  int beyond = 0, outside = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Scene s = drawScene(random, i % 2 == 0);
+    Matrix3 A;
+    for (int row = 0; row < 3; ++row)
+      A.row(row) = std::pow(10, random.uniform(-3, row < 2 ? 0.5 : 0)) * random.normal3();
+    const Matrix3 P = A * A.transpose();
+    const auto& m = s.landmark;
+    const Eye eye(s.pose);
+    for (const Matrix3* pose : {static_cast<const Matrix3*>(nullptr), &P})
+    {
+      const bool rejected = isBeyond(kGate, eye, s.ray(), m.x, m.y, m.cxx, m.cyy, pose);
+      Innovation polar = innovation(s, s.ray()), unscented{};
+      ASSERT_TRUE(innovateUnscented(eye, s.ray(), m.x, m.y, m.cxx, m.cxy, m.cyy, pose, unscented));
+      if (pose)
+      {
+        polar = withPose(polar, P);
+        unscented = withPose(unscented, P);
+      }
+      if (rejected)
+      {
+        EXPECT_GT(std::min(polar.d2, unscented.d2), kGate) << "scene " << i;
+      }
+      beyond += rejected ? 1 : 0;
+      outside += std::min(polar.d2, unscented.d2) > kGate ? 1 : 0;
+    }
+    EXPECT_FALSE(isBeyond(kGate, eye, s.bearingAlone(), m.x, m.y, m.cxx, m.cyy, nullptr));
+  }
+  EXPECT_GT(beyond, 0.5 * outside);  // or it would be of little use
 }
 
 TEST(Correct, EqualsAKalmanFilter)

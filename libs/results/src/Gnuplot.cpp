@@ -59,8 +59,9 @@ int runGnuplot(std::FILE* in, std::FILE* out, std::FILE* err)
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  char name[] = "gnuplot", defaults[] = "-d";
-  char* const arguments[] = {name, defaults, nullptr};
+  // By name: what it reads as its standard input it reads character by character, a call each.
+  char name[] = "gnuplot", defaults[] = "-d", script[] = "/dev/stdin";
+  char* const arguments[] = {name, defaults, script, nullptr};
   pid_t pid = 0;
   const int error = ::posix_spawnp(&pid, name, &files, &attributes, arguments, ::environ);
   ::posix_spawn_file_actions_destroy(&files);

@@ -55,10 +55,13 @@ void LandmarkScan::forPossiblePairs(const maps::LandmarkMap& map, const Eye& eye
     for (const std::uint32_t slot : slots_.near(j))
     {
       const maps::Landmark* m = map.find(slot);
+      if (!m || isBeyond(settings_.gates.outer, eye, slots_.rays()[j], m->x, m->y, m->cxx, m->cyy,
+                         spread ? &poseCov : nullptr))
+        continue;
       Innovation o;
       // With the sighting's whole noise: which landmark it is of does not get less sure by
       // repetition.
-      if (!m || !mayBeOf(*m) || !innovateLandmark(eye, j, *m, spread ? &poseCov : nullptr, o, 1))
+      if (!mayBeOf(*m) || !innovateLandmark(eye, j, *m, spread ? &poseCov : nullptr, o, 1))
         continue;
       const Innovation whole = spread ? withPose(o, poseCov) : o;
       if (whole.d2 <= settings_.gates.outer)

@@ -61,6 +61,26 @@ inline double smallAngle(double y, double x)
   return std::atan2(y, x);
 }
 
+/// Whether a sighting is so far from a point, in metres, that no frame's bend can bring it within
+/// `gate` (of d2): most candidates are, and this takes no root, division or angle.  Chords are
+/// shorter than arcs, variances add up to more than the largest eigenvalue, and where ranges differ
+/// by half the answer is no.
+inline bool isBeyond(double gate, const Eye& eye, const Ray& z, double mx, double my, double pxx,
+                     double pyy, const Matrix3* poseCov)
+{
+  const double dx = mx - eye.x, dy = my - eye.y, q = dx * dx + dy * dy, r2 = z.range * z.range;
+  if (!z.hasRange || 4 * q < r2) return false;
+  const double c = eye.c * z.cosB - eye.s * z.sinB, s = eye.s * z.cosB + eye.c * z.sinB;
+  const double ex = dx - z.range * c, ey = dy - z.range * s;
+  double place = pxx + pyy, turn = z.varBearing;
+  if (poseCov)
+  {
+    place += (*poseCov)(0, 0) + (*poseCov)(1, 1);
+    turn += (*poseCov)(2, 2);
+  }
+  return ex * ex + ey * ey > 2 * gate * (z.varRange + 2 * place + (q + r2) * turn);
+}
+
 // Within eight deviations (squared here) of the point and the range, polar coordinates bend too
 // much: a filter linearised in them turns over-confident.  A frame on the sighting's ray is linear
 // in the point there; farther away it would not do, since it bends where a heading is uncertain.

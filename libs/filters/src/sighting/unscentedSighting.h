@@ -17,7 +17,7 @@ namespace slamot::filters
 struct UnscentedPolar
 {
   double meanR, meanB;
-  double rAlong, rAcross, bAlong, bAcross;  ///< slopes of the regression on d
+  double rAlong, bAlong, bAcross;  ///< slopes of the regression on d; the range has none across
   double varR, varB, covRB;                 ///< what the regression leaves over
 
   UnscentedPolar(double r0, double along, double both, double across)
@@ -30,22 +30,19 @@ struct UnscentedPolar
       r = std::sqrt((r0 + ex) * (r0 + ex) + ey * ey) - r0;
       b = smallAngle(ey, r0 + ex);
     };
-    double ra, ba, rb, bb, rc, bc, rd, bd;
+    double ra, ba, rb, bb, rc, bc;
     expected(kSpread * l11, kSpread * l21, ra, ba);
     expected(-kSpread * l11, -kSpread * l21, rb, bb);
-    expected(0, kSpread * l22, rc, bc);
-    expected(0, -kSpread * l22, rd, bd);
-    meanR = w * (ra + rb + rc + rd);
-    meanB = w * (ba + bb + bc + bd);
-    const double gr1 = half * (ra - rb), gr2 = half * (rc - rd);  // slopes along the columns
-    const double gb1 = half * (ba - bb), gb2 = half * (bc - bd);
-    rAcross = gr2 / l22;
-    rAlong = (gr1 - rAcross * l21) / l11;
+    expected(0, kSpread * l22, rc, bc);  // and its mirror image (rc, -bc)
+    meanR = w * (ra + rb + 2 * rc);
+    meanB = w * (ba + bb);
+    const double gr1 = half * (ra - rb), gb1 = half * (ba - bb), gb2 = 2 * half * bc;
+    rAlong = gr1 / l11;  // slopes along the columns; across, the range has none
     bAcross = gb2 / l22;
     bAlong = (gb1 - bAcross * l21) / l11;
-    varR = w * (ra * ra + rb * rb + rc * rc + rd * rd) - meanR * meanR - gr1 * gr1 - gr2 * gr2;
-    varB = w * (ba * ba + bb * bb + bc * bc + bd * bd) - meanB * meanB - gb1 * gb1 - gb2 * gb2;
-    covRB = w * (ra * ba + rb * bb + rc * bc + rd * bd) - meanR * meanB - gr1 * gb1 - gr2 * gb2;
+    varR = w * (ra * ra + rb * rb + 2 * rc * rc) - meanR * meanR - gr1 * gr1;
+    varB = w * (ba * ba + bb * bb + 2 * bc * bc) - meanB * meanB - gb1 * gb1 - gb2 * gb2;
+    covRB = w * (ra * ba + rb * bb) - meanR * meanB - gr1 * gb1;
   }
 };
 
@@ -69,8 +66,8 @@ inline bool innovateUnscented(const Eye& eye, const Ray& z, double mx, double my
   const UnscentedPolar t(r0, u * u * dxx + 2 * u * v * dxy + v * v * dyy,
                          u * v * (dyy - dxx) + (u * u - v * v) * dxy,
                          v * v * dxx - 2 * u * v * dxy + u * u * dyy);
-  o.h11 = u * t.rAlong - v * t.rAcross;
-  o.h12 = v * t.rAlong + u * t.rAcross;
+  o.h11 = u * t.rAlong;
+  o.h12 = v * t.rAlong;
   o.h21 = u * t.bAlong - v * t.bAcross;
   o.h22 = v * t.bAlong + u * t.bAcross;
   o.turnR = 0;
