@@ -12,6 +12,7 @@
 #include <functional>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 namespace slamot::filters::ekf
 {
@@ -58,7 +59,7 @@ class Several : public ::testing::Test
     settings = Settings::from(params, {"mht", true});
     auto one = std::make_unique<EngineOf<models::ConstantVelocityTarget>>(
         settings, std::get<models::ConstantVelocityTarget>(models::targetMotionFrom(params)),
-        std::vector<core::FilterContext>{context}, Mates{});
+        contexts, Mates{});
     filter = std::make_unique<Hypotheses>(settings, std::move(one));
   }
   core::Update see(const std::vector<Point2D>& what, const Pose2D& from = {}, double std = 0.1)
@@ -69,7 +70,7 @@ class Several : public ::testing::Test
   }
   [[nodiscard]] std::size_t mapped() const { return filter->estimate(0).landmarks->size(); }
 
-  core::FilterContext context;
+  std::vector<core::FilterContext> contexts{1};  // a robot each
   Settings settings;
   std::unique_ptr<Hypotheses> filter;
   double time = 0;
@@ -322,6 +323,42 @@ TEST_F(Several, AreAllToldOfEvidence)
   told.H = Eigen::MatrixXd::Identity(2, 5);
   EXPECT_THROW(filter->fuse(told, {}), core::Error);
   EXPECT_EQ(filter->weights(), weights);
+}
+
+TEST_F(Several, RobotsHaveOneMap)
+{
+  contexts.resize(2);
+  const Pose2D other{12, 1, math::kPi};
+  core::ObjectStart& start = contexts[1].starts.robot.emplace();
+  for (const auto& [field, value, std] : {std::tuple(core::ObjectStart::kX, other.x + 0.4, 0.5),
+                                          std::tuple(core::ObjectStart::kY, other.y - 0.4, 0.5),
+                                          std::tuple(core::ObjectStart::kTheta, other.phi, 0.05)})
+    start.value[field] = value, start.std[field] = std;
+  make("clutter_per_scan = 1\n");
+  const std::vector<Point2D> posts{{5, -3}, {5, 3}, {8, 0}};
+  for (int i = 0; i < 6; ++i) see(posts, {}, 0.02);
+  ASSERT_EQ(mapped(), posts.size());
+  const double before = filter->estimate(1).robot.cov(0, 0);
+  std::vector<core::Sighting> sightings;
+  for (const Point2D& p : posts) sightings.push_back(seen(other, p, 0.02, 0.002));
+  for (int i = 0; i < 3; ++i) filter->process(1, scan(++time, sightings));
+  EXPECT_EQ(filter->estimate(1).landmarks->size(), posts.size());
+  const auto placed = filter->estimate(1).robot;
+  EXPECT_NEAR(placed.mean.x, other.x, 0.05);
+  EXPECT_NEAR(placed.mean.y, other.y, 0.05);
+  EXPECT_LT(placed.cov(0, 0), 0.01 * before);
+  EXPECT_EQ(filter->estimate(0).robot.mean.x, 0);  // where it started, exactly
+}
+
+TEST_F(Several, AnOverflowAmidAScanIsTheLastEstimate)
+{
+  make("clutter_per_scan = 1\n");
+  see({{5, 1}, {6, -1}});
+  core::Step absurd = scan(++time, {seen({}, {5, 1})});
+  absurd.odometry = {Pose2D(0, 0, 0), 1e308 * Matrix3::Identity()};
+  EXPECT_THROW(filter->process(0, absurd), core::Error);
+  EXPECT_THROW((void)filter->estimate(0), core::Error);
+  EXPECT_THROW(filter->process(0, scan(++time, {})), core::Error);
 }
 
 TEST(Slamot, ObeysTheFilterLaws)

@@ -11,7 +11,7 @@ namespace slamot::filters::ekf
 {
 void failOverflow()
 {
-  throw core::Error(core::ExitStatus::kNonsense, "ekf-slamot", "the estimate overflowed at a step",
+  throw core::Error(core::ExitStatus::kNonsense, "filter", "the estimate overflowed at a step",
                     "look for absurd values of odometry or deviations in the log");
 }
 

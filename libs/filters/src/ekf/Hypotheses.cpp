@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include <utility>
+
 namespace slamot::filters::ekf
 {
 using Kind = core::Pairing::Outcome;
@@ -59,41 +61,49 @@ Hypotheses::Hypotheses(const Settings& settings, std::unique_ptr<Hypothesis> fir
   list_.push_back({std::move(first), 0, {}, 0});
 }
 
+Hypothesis& Hypotheses::best() const
+{
+  if (list_.empty()) failOverflow();
+  return *list_.front().filter;
+}
+
 core::Update Hypotheses::process(int robot, const core::Step& step)
 {
+  (void)best();
   for (Weighted& h : list_)
   {
     h.pairings.clear();
     h.close = 0;
     h.filter->move(robot, step);
   }
+  List list = std::exchange(list_, {});  // an overflow from here on leaves none
   if (step.landmarks)
   {
     List next;
-    for (Weighted& h : list_)
+    for (Weighted& h : list)
     {
       List children = branch(std::move(h), robot, *step.landmarks, step.time);
       std::move(children.begin(), children.end(), std::back_inserter(next));
       cut(next, kMostAtOnce * settings_.arrival->most, settings_.arrival->least);
     }
-    list_ = std::move(next);
-    keepLikeliest();
+    list = likeliestOf(std::move(next));
   }
   core::Update out;
-  for (std::size_t i = list_.size(); i-- > 0;)
-    out = list_[i].filter->take(robot, step, nullptr);  // the last is the likeliest's
-  out.pairings.insert(out.pairings.begin(), list_.front().pairings.begin(),
-                      list_.front().pairings.end());
-  out.diagnostics.close += list_.front().close;
+  for (std::size_t i = list.size(); i-- > 0;)
+    out = list[i].filter->take(robot, step, nullptr);  // the last is the likeliest's
+  out.pairings.insert(out.pairings.begin(), list.front().pairings.begin(),
+                      list.front().pairings.end());
+  out.diagnostics.close += list.front().close;
+  list_ = std::move(list);
   return out;
 }
 
 // Those that agree on where the robot is differ in what will not matter, and are one.
-void Hypotheses::keepLikeliest()
+Hypotheses::List Hypotheses::likeliestOf(List list) const
 {
-  cut(list_, static_cast<int>(list_.size()), settings_.arrival->least);
+  cut(list, static_cast<int>(list.size()), settings_.arrival->least);
   List kept;
-  for (Weighted& h : list_)
+  for (Weighted& h : list)
   {
     const auto same = std::find_if(
         kept.begin(), kept.end(),
@@ -104,10 +114,10 @@ void Hypotheses::keepLikeliest()
     else
       same->logWeight += std::log1p(std::exp(h.logWeight - same->logWeight));
   }
-  list_ = std::move(kept);
-  cut(list_, settings_.arrival->most, settings_.arrival->least);
-  const double likeliest = list_.front().logWeight;
-  for (Weighted& h : list_) h.logWeight -= likeliest;
+  cut(kept, settings_.arrival->most, settings_.arrival->least);
+  const double likeliest = kept.front().logWeight;
+  for (Weighted& h : kept) h.logWeight -= likeliest;
+  return kept;
 }
 
 Hypotheses::List Hypotheses::branch(Weighted&& parent, int robot, const core::LandmarkScan& scan,
@@ -213,7 +223,8 @@ Hypotheses::List Hypotheses::split(List&& of, int robot, const Ray& ray, std::si
     const std::size_t i = children[c].parent;
     const bool isLast = std::none_of(children.begin() + static_cast<std::ptrdiff_t>(c) + 1,
                                      children.end(), [&](const Child& o) { return o.parent == i; });
-    out.push_back({isLast ? std::move(of[i].filter) : of[i].filter->clone(), of[i].logWeight, of[i].pairings, of[i].close});
+    out.push_back({isLast ? std::move(of[i].filter) : of[i].filter->clone(), of[i].logWeight,
+                   of[i].pairings, of[i].close});
     takeOne(out.back(), robot, ray, k, children[c].as, time);
   }
   return out;
@@ -231,7 +242,7 @@ std::vector<double> Hypotheses::weights() const
 
 core::Fusion Hypotheses::fuse(const core::Evidence& evidence, const core::FusionOptions& options)
 {
-  const core::Fusion out = list_.front().filter->fuse(evidence, options);
+  const core::Fusion out = best().fuse(evidence, options);
   // One that follows other targets can't be told of this one.
   const auto cannot = [&](const Weighted& h)
   {

@@ -15,22 +15,19 @@ class Hypotheses : public EkfSlamot::Engine
   Hypotheses(const Settings& settings, std::unique_ptr<Hypothesis> first);
 
   core::Update process(int robot, const core::Step& step) override;
-  [[nodiscard]] core::Estimate estimate(int robot) const override
-  {
-    return list_.front().filter->estimate(robot);
-  }
+  [[nodiscard]] core::Estimate estimate(int robot) const override { return best().estimate(robot); }
   [[nodiscard]] core::RobotAndTarget robotAndTarget(int target) const override
   {
-    return list_.front().filter->robotAndTarget(target);
+    return best().robotAndTarget(target);
   }
   core::Fusion fuse(const core::Evidence& evidence, const core::FusionOptions& options) override;
-  /// The likeliest one.
-  [[nodiscard]] Hypothesis& best() { return *list_.front().filter; }
+  /// The likeliest one.  \throws core::Error (kNonsense) once an estimate has overflowed.
+  [[nodiscard]] Hypothesis& best() const;
   /// How likely each hypothesis is, likeliest first; the sum is 1.
   [[nodiscard]] std::vector<double> weights() const;
   void predictTarget(core::RobotAndTarget& other, double dt) const override
   {
-    list_.front().filter->predictTarget(other, dt);
+    best().predictTarget(other, dt);
   }
 
  private:
@@ -50,7 +47,7 @@ class Hypotheses : public EkfSlamot::Engine
                double time) const;
   [[nodiscard]] List split(List&& of, int robot, const Ray& ray, std::size_t k, double time) const;
 
-  void keepLikeliest();
+  [[nodiscard]] List likeliestOf(List list) const;
 
   Settings settings_;
   List list_;  // likeliest first
