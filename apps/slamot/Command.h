@@ -38,4 +38,6 @@ void addRender(CLI::App& app, int& status);
 void addStudy(CLI::App& app, int& status);
 void addTeam(CLI::App& app, int& status);
 void addRobot(CLI::App& app, int& status);
+void addDetect(CLI::App& app, int& status);
+void addCalibrateColor(CLI::App& app, int& status);
 }  // namespace slamot::apps

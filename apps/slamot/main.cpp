@@ -80,6 +80,8 @@ int runCommand(int argc, char** argv)
   slamot::apps::addTeam(app, status);
   slamot::apps::addRobot(app, status);
   slamot::apps::addImport(app, status);
+  slamot::apps::addDetect(app, status);
+  slamot::apps::addCalibrateColor(app, status);
   try
   {
     app.parse(argc, argv);

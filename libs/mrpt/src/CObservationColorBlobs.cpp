@@ -48,9 +48,10 @@ void write(Archive& out, const Blob& b)
     out << v;
   out << b.range.has_value();
   if (b.range) out << *b.range << b.rangeStd;
+  out << b.cut;
 }
 
-Blob readBlob(Archive& in)
+Blob readBlob(Archive& in, std::uint8_t version)
 {
   Blob b;
   b.label = readLabel(in);
@@ -63,6 +64,7 @@ Blob readBlob(Archive& in)
     b.range = in.ReadAs<double>();
     in >> b.rangeStd;
   }
+  if (version >= 1) b.cut = in.ReadAs<std::uint8_t>() != 0;
   return b;
 }
 
@@ -77,7 +79,7 @@ std::ostringstream classicStream()
 
 std::uint8_t CObservationColorBlobs::serializeGetVersion() const
 {
-  return 0;
+  return 1;
 }
 
 void CObservationColorBlobs::serializeTo(Archive& out) const
@@ -92,14 +94,14 @@ void CObservationColorBlobs::serializeTo(Archive& out) const
 
 void CObservationColorBlobs::serializeFrom(Archive& in, std::uint8_t version)
 {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   in >> timestamp;
   sensorLabel = readLabel(in);
   in >> sensorPoseOnRobot;
   in >> rangeMin >> rangeMax >> bearingMin >> bearingMax >> elevationMin >> elevationMax;
   blobs.clear();
   const std::uint32_t n = readCount(in, kMostBlobs, "blobs");
-  for (std::uint32_t i = 0; i < n; ++i) blobs.push_back(readBlob(in));
+  for (std::uint32_t i = 0; i < n; ++i) blobs.push_back(readBlob(in, version));
 }
 
 void CObservationColorBlobs::getDescriptionAsText(std::ostream& o) const
@@ -123,7 +125,7 @@ void CObservationColorBlobs::getDescriptionAsText(std::ostream& o) const
     if (b.boxWidth > 0)
       text << "; centre (" << b.centerX << ", " << b.centerY << ") px, box " << b.boxWidth << " x "
            << b.boxHeight << " px at (" << b.boxLeft << ", " << b.boxTop << "), area " << b.area
-           << " px^2";
+           << " px^2" << (b.cut ? ", cut by the image's edge" : "");
     text << "\n";
   }
   o << text.str();
@@ -133,7 +135,7 @@ std::string CObservationColorBlobs::exportTxtHeader() const
 {
   return "BLOBS LABEL ID BEARING_RAD BEARING_STD_RAD ELEVATION_RAD ELEVATION_STD_RAD RANGE_M "
          "RANGE_STD_M CENTER_X_PX CENTER_Y_PX BOX_LEFT_PX BOX_TOP_PX BOX_WIDTH_PX BOX_HEIGHT_PX "
-         "AREA_PX2 (from LABEL on again for each blob; RANGE_M nan: not ranged)";
+         "AREA_PX2 CUT (from LABEL on again for each blob; RANGE_M nan: not ranged)";
 }
 
 std::string CObservationColorBlobs::exportTxtDataRow() const
@@ -152,6 +154,7 @@ std::string CObservationColorBlobs::exportTxtDataRow() const
     for (const double v :
          {b.centerX, b.centerY, b.boxLeft, b.boxTop, b.boxWidth, b.boxHeight, b.area})
       row << " " << v;
+    row << " " << b.cut;
   }
   return row.str();
 }

@@ -30,6 +30,8 @@ struct Entry
   std::uint64_t offset = 0;  ///< of its first byte [byte], unpacked
   Kind kind = Kind::kObservation;
   std::vector<Part> parts;
+  std::vector<unsigned char> bytes;  ///< all of it as it stands in the log; kept for editing only
+  std::size_t countAt = 0;  ///< of actions and frames: where in `bytes` their number of parts is
 
   /// The object of a kObservation or kComment, if it is of this class.
   template <class T>

@@ -1,9 +1,11 @@
 #include "EntryReader.h"
 
 #include "MemoryArchive.h"
+#include "readImage.h"
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -31,11 +33,10 @@ std::optional<Entry> EntryReader::next()
   for (;;)
   {
     ByteCursor cursor(window_.data() + begin_, end_ - begin_);
-    std::vector<Extent> parts;
     try
     {
-      const Entry::Kind kind = walk(cursor, parts);
-      Entry entry = parse(kind, parts);
+      const Walked walked = walk(cursor);
+      Entry entry = parse(walked, cursor.at());
       begin_ += cursor.at();
       offset_ += cursor.at();
       ++count_;
@@ -71,25 +72,35 @@ bool EntryReader::grow()
   return got > 0;
 }
 
-Entry::Kind EntryReader::walk(ByteCursor& cursor, std::vector<Extent>& parts) const
+bool EntryReader::reads(const ObjectHeader& header) const
 {
+  return hasLayout(header) &&
+         (purpose_ == For::kEditing || header.id != classId<::mrpt::obs::CObservationImage>());
+}
+
+EntryReader::Walked EntryReader::walk(ByteCursor& cursor) const
+{
+  Walked out;
   const ByteCursor start = cursor;
   const ObjectHeader header = readHeader(cursor);
   const bool isFrame = header.id == classId<::mrpt::obs::CSensoryFrame>();
   if (!isFrameOrActions(header))
   {
     cursor = start;
-    parts.push_back(walkPart(cursor, Level::kLog, true));
-    return header.id == classId<::mrpt::obs::CObservationComment>() ? Entry::Kind::kComment
-                                                                    : Entry::Kind::kObservation;
+    out.parts.push_back(walkPart(cursor, Level::kLog, true));
+    out.kind = header.id == classId<::mrpt::obs::CObservationComment>() ? Entry::Kind::kComment
+                                                                        : Entry::Kind::kObservation;
+    return out;
   }
   requireVersion(cursor, header, isFrame ? 1 : 0, isFrame ? 2 : 0);
   if (isFrame && header.version == 1) cursor.skip(sizeof(std::uint32_t));
+  out.countAt = cursor.at();
   const std::uint32_t n = cursor.count(kMostParts, 1, isFrame ? "observations" : "actions");
   for (std::uint32_t i = 0; i < n; ++i)
-    parts.push_back(walkPart(cursor, isFrame ? Level::kFrame : Level::kActions, i + 1 == n));
+    out.parts.push_back(walkPart(cursor, isFrame ? Level::kFrame : Level::kActions, i + 1 == n));
   requireEndFlag(cursor, header.name);
-  return isFrame ? Entry::Kind::kFrame : Entry::Kind::kActions;
+  out.kind = isFrame ? Entry::Kind::kFrame : Entry::Kind::kActions;
+  return out;
 }
 
 EntryReader::Extent EntryReader::walkPart(ByteCursor& cursor, Level level, bool last) const
@@ -104,7 +115,7 @@ EntryReader::Extent EntryReader::walkPart(ByteCursor& cursor, Level level, bool 
                  ExitStatus::kUnreadable);
   if (part.header.isNull())
     requireEndFlag(cursor, part.header.name);
-  else if (hasLayout(part.header))
+  else if (reads(part.header))
     walkObject(cursor, part.header);
   else
     skipUnknown(cursor, level, last, atEnd_);
@@ -112,14 +123,20 @@ EntryReader::Extent EntryReader::walkPart(ByteCursor& cursor, Level level, bool 
   return part;
 }
 
-Entry EntryReader::parse(Entry::Kind kind, const std::vector<Extent>& parts) const
+Entry EntryReader::parse(const Walked& walked, std::size_t size) const
 {
   Entry entry;
   entry.path = path_;
   entry.number = count_;
   entry.offset = offset_;
-  entry.kind = kind;
-  for (const Extent& part : parts) entry.parts.push_back(parsePart(part));
+  entry.kind = walked.kind;
+  entry.countAt = walked.countAt;
+  if (purpose_ == For::kEditing)
+  {
+    const unsigned char* const first = window_.data() + begin_;
+    entry.bytes.assign(first, first + size);
+  }
+  for (const Extent& part : walked.parts) entry.parts.push_back(parsePart(part));
   return entry;
 }
 
@@ -127,8 +144,15 @@ Entry::Part EntryReader::parsePart(const Extent& extent) const
 {
   Entry::Part part;
   part.className = extent.header.id != nullptr ? extent.header.id->className : extent.header.name;
-  if (!hasLayout(extent.header)) return part;
-  MemoryArchive archive(window_.data() + begin_ + extent.begin, extent.end - extent.begin);
+  if (!reads(extent.header)) return part;
+  const unsigned char* const first = window_.data() + begin_ + extent.begin;
+  const std::size_t size = extent.end - extent.begin;
+  if (extent.header.id == classId<::mrpt::obs::CObservationImage>())
+  {
+    part.object = readImage(first, size);
+    return part;
+  }
+  MemoryArchive archive(first, size);
   bool whole = false;
   try
   {

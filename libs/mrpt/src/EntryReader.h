@@ -16,8 +16,17 @@ class EntryReader
   static constexpr std::size_t kLargestEntry = 64u << 20;  ///< [byte]
   static constexpr std::uint32_t kMostParts = 10000;       ///< in one frame or list of actions
 
+  enum class For
+  {
+    kSteps,   ///< images are skipped like all that steps do not hold
+    kEditing  ///< images are read, and each entry's bytes kept
+  };
+
   /// \throws core::Error (kUnreadable).
-  explicit EntryReader(const std::string& path) : path_(path), input_(path) {}
+  explicit EntryReader(const std::string& path, For purpose = For::kSteps)
+      : path_(path), input_(path), purpose_(purpose)
+  {
+  }
 
   /// None at the end.  \throws core::Error with the entry and its byte: kUnreadable (no rawlog, an
   /// unknown class, damaged), kTruncated (it ends inside an entry), kNonsense (counts and choices
@@ -36,10 +45,17 @@ class EntryReader
     std::size_t begin, end;
   };
 
+  [[nodiscard]] bool reads(const ObjectHeader& header) const;
   bool grow();
-  Entry::Kind walk(ByteCursor& cursor, std::vector<Extent>& parts) const;
+  struct Walked
+  {
+    Entry::Kind kind;
+    std::vector<Extent> parts;
+    std::size_t countAt = 0;
+  };
+  Walked walk(ByteCursor& cursor) const;
   Extent walkPart(ByteCursor& cursor, Level level, bool last) const;
-  Entry parse(Entry::Kind kind, const std::vector<Extent>& parts) const;
+  Entry parse(const Walked& walked, std::size_t size) const;
   Entry::Part parsePart(const Extent& extent) const;
 
   [[nodiscard]] std::string where(std::size_t at) const;
@@ -48,6 +64,7 @@ class EntryReader
 
   std::string path_;
   BoundedInput input_;
+  For purpose_;
   std::vector<unsigned char> window_;  // bytes at hand; [begin_, end_) are still to be read
   std::size_t begin_ = 0, end_ = 0;
   std::uint64_t offset_ = 0;  // of begin_ in the unpacked file

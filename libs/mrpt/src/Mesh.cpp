@@ -108,7 +108,8 @@ void Mesh::ellipse(const Gaussian<Point2D>& g, double rim, double z, bool filled
   const auto outline = [&](double grown)
   {
     return around(36,
-                  [&](double c, double s) {
+                  [&](double c, double s)
+                  {
                     return math::transform(centre, {(scale * axes.longer + grown) * c,
                                                     (scale * axes.shorter + grown) * s});
                   });

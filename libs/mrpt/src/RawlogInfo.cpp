@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <map>
 
+#include <slamot/mrpt/timestamp.h>
 #include "scanLog.h"
-#include "timestamp.h"
 
 namespace slamot::mrpt
 {

@@ -1,5 +1,5 @@
+#include <slamot/mrpt/timestamp.h>
 #include "GzWriter.h"
-#include "timestamp.h"
 #include "toObservations.h"
 
 #include <mrpt/io/CMemoryStream.h>

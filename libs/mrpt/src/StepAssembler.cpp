@@ -1,8 +1,8 @@
 #include "StepAssembler.h"
 
+#include <slamot/mrpt/timestamp.h>
 #include "readMotion.h"
 #include "readObservation.h"
-#include "timestamp.h"
 
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationOdometry.h>

@@ -1,5 +1,7 @@
 #include "objectLayout.h"
 
+#include "jpegSize.h"
+
 #include <slamot/mrpt/CObservationColorBlobs.h>
 
 #include <algorithm>
@@ -7,7 +9,7 @@
 #include <map>
 
 // The layouts are those that MRPT 1.x to 2.5 wrote; found from files, and checked in the tests
-// against what MRPT writes.
+// against what MRPT writes; images as 2.5 writes them.
 namespace slamot::mrpt
 {
 namespace
@@ -17,7 +19,9 @@ constexpr std::uint32_t kMostBeams = 1000000;
 constexpr std::uint32_t kMostParticles = 100000;
 constexpr std::uint32_t kMostModes = 1000;
 constexpr std::uint32_t kMostMatrixRows = 1000;
-constexpr std::uint32_t kLongestText = 4u << 20;  // [byte]
+constexpr std::int64_t kMostPixels = 64 << 20;
+constexpr std::uint32_t kMostLensModels = 2, kMostDepths = 6;  // MRPT's and OpenCV's enums
+constexpr std::uint32_t kLongestText = 4u << 20;               // [byte]
 
 constexpr std::size_t kFloat = 4, kDouble = 8, kTime = 8;
 
@@ -186,7 +190,7 @@ void walkComment(ByteCursor& c, const ObjectHeader& h)
 void walkBlobs(ByteCursor& c, const ObjectHeader& h)
 {
   using Blobs = obs::CObservationColorBlobs;
-  requireVersion(c, h, 0, 0);
+  requireVersion(c, h, 0, 1);
   c.skip(kTime);
   c.text(Blobs::kLongestLabel, "bytes of sensor label");
   walkNested(c, {"CPose3D"});
@@ -197,7 +201,75 @@ void walkBlobs(ByteCursor& c, const ObjectHeader& h)
     c.text(Blobs::kLongestLabel, "bytes of blob label");
     c.skip(sizeof(std::int32_t) + 11 * kDouble);
     if (c.flag()) c.skip(2 * kDouble);
+    if (h.version >= 1) (void)c.flag();
   }
+}
+
+void walkCamera(ByteCursor& c, const ObjectHeader& h)
+{
+  requireVersion(c, h, 6, 6);
+  c.skip(13 * kDouble + 2 * sizeof(std::uint32_t));
+  c.text(kLongestText, "bytes of camera name");
+  if (c.read<std::uint8_t>() > kMostLensModels) c.damage("an unknown lens");
+}
+
+// What MRPT allocates by a file's word: pixels of an image, also of a JPEG inside.
+std::size_t pixels(ByteCursor& c, std::int64_t width, std::int64_t height)
+{
+  if (width < 0 || height < 0 || width > kMostPixels || height > kMostPixels ||
+      width * height > kMostPixels)
+    c.damage("an image of " + std::to_string(width) + " x " + std::to_string(height) +
+             " pixels makes no sense");
+  return static_cast<std::size_t>(width * height);
+}
+
+void walkColors(ByteCursor& c)
+{
+  const std::int64_t width = c.read<std::int32_t>(), height = c.read<std::int32_t>();
+  if (width < 0 || height < 0)  // MRPT's sign of pixels as they are
+  {
+    c.skip(3 * pixels(c, -width, -height));
+    return;
+  }
+  (void)pixels(c, width, height);
+  const std::uint32_t n = c.count(1u << 30, 1, "bytes of a JPEG");
+  const auto size = jpegSize(c.here(), n);
+  if (size) (void)pixels(c, size->first, size->second);
+  c.skip(n);
+}
+
+void walkGrey(ByteCursor& c)
+{
+  const auto width = c.read<std::uint32_t>(), height = c.read<std::uint32_t>();
+  c.skip(sizeof(std::uint32_t));
+  const auto bytes = c.read<std::uint32_t>();
+  const auto depth = c.read<std::uint32_t>();
+  if (c.flag() || depth > kMostDepths) c.damage("an image packed in an unknown way");
+  // Eight bits a pixel at least, and sixty-four at most.
+  const std::size_t n = pixels(c, width, height);
+  if (bytes < n || bytes > 8 * n) c.damage("an image's size and its bytes contradict each other");
+  c.skip(bytes);
+}
+
+void walkPicture(ByteCursor& c, const ObjectHeader& h)
+{
+  requireVersion(c, h, 9, 9);
+  if (c.flag())
+    c.text(kLongestText, "bytes of a file's name");
+  else if (c.flag())
+    walkColors(c);
+  else
+    walkGrey(c);
+}
+
+void walkImage(ByteCursor& c, const ObjectHeader& h)
+{
+  requireVersion(c, h, 4, 4);
+  walkNested(c, {"CPose3D"});
+  walkNested(c, {"TCamera"});
+  walkNested(c, {"CImage"});
+  c.skip(kTime);
+  c.text(kLongestText, "bytes of sensor label");
 }
 
 const std::map<std::string, Layout>& leaves()
@@ -207,6 +279,7 @@ const std::map<std::string, Layout>& leaves()
       {"mrpt::obs::CObservation2DRangeScan", walkScan},
       {"mrpt::obs::CObservationBearingRange", walkBearingRange},
       {"mrpt::obs::CObservationComment", walkComment},
+      {"mrpt::obs::CObservationImage", walkImage},
       {"mrpt::obs::CObservationOdometry", walkOdometry},
       {"slamot::obs::CObservationColorBlobs", walkBlobs}};
   return table;
@@ -214,7 +287,8 @@ const std::map<std::string, Layout>& leaves()
 
 Layout nestedLayout(const std::string& name)
 {
-  static const std::map<std::string, Layout> table = {{"CMatrix", walkMatrix},
+  static const std::map<std::string, Layout> table = {{"CImage", walkPicture},
+                                                      {"CMatrix", walkMatrix},
                                                       {"CMatrixD", walkMatrix},
                                                       {"CMatrixF", walkMatrix},
                                                       {"CPose2D", walkPose2D},
@@ -222,7 +296,8 @@ Layout nestedLayout(const std::string& name)
                                                       {"CPosePDFGaussian", walkGaussian},
                                                       {"CPosePDFGaussianInf", walkGaussianInf},
                                                       {"CPosePDFParticles", walkParticles},
-                                                      {"CPosePDFSOG", walkModes}};
+                                                      {"CPosePDFSOG", walkModes},
+                                                      {"TCamera", walkCamera}};
   return table.at(name);
 }
 
@@ -249,6 +324,16 @@ void walkObject(ByteCursor& cursor, const ObjectHeader& header)
 {
   leaves().at(header.id->className)(cursor, header);
   requireEndFlag(cursor, header.id->className);
+}
+
+PicturePlace pictureIn(ByteCursor cursor)
+{
+  (void)readHeader(cursor);
+  walkNested(cursor, {"CPose3D"});
+  walkNested(cursor, {"TCamera"});
+  const std::size_t begin = cursor.at();
+  walkNested(cursor, {"CImage"});
+  return {begin, cursor.at()};
 }
 
 void requireVersion(const ByteCursor& cursor, const ObjectHeader& header, int oldest, int newest)

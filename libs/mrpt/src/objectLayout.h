@@ -12,6 +12,14 @@ namespace slamot::mrpt
 /// fields that choose a branch. \throws Damage, NeedMore.
 void walkObject(ByteCursor& cursor, const ObjectHeader& header);
 
+/// Where in an image's bytes, header included, its picture is: [begin, end), of an object that can
+/// be walked over.
+struct PicturePlace
+{
+  std::size_t begin, end;
+};
+[[nodiscard]] PicturePlace pictureIn(ByteCursor cursor);
+
 /// \throws Damage (kUnreadable) unless `version` is at most `newest` and at least `oldest`.
 void requireVersion(const ByteCursor& cursor, const ObjectHeader& header, int oldest, int newest);
 

@@ -147,8 +147,10 @@ void addBlobs(core::Step& step, const CObservationColorBlobs& o, const Entry& en
   for (const auto& b : o.blobs) addBlob(step, b, frame, fov, entry);
 }
 
-// Counter-clockwise in the robot's plane, whichever way the sensor turns or is mounted.
-void addLaser(core::Step& step, const CObservation2DRangeScan& o, const Entry& entry)
+}  // namespace
+
+std::shared_ptr<const core::LaserScan> laserScanOf(const CObservation2DRangeScan& o,
+                                                   const Entry& entry)
 {
   if (!isPose(o.sensorPose) || !std::isfinite(o.aperture) || !(o.maxRange > 0))
     entry.fail("the laser's pose, aperture or largest range makes no sense", "mend the log");
@@ -169,9 +171,8 @@ void addLaser(core::Step& step, const CObservation2DRangeScan& o, const Entry& e
   }
   const bool leftToRight = (o.aperture >= 0) != o.rightToLeft;
   if (leftToRight != upsideDown) std::reverse(scan->ranges.begin(), scan->ranges.end());
-  step.lasers.push_back(scan);
+  return scan;
 }
-}  // namespace
 
 bool addObservation(core::Step& step, const ::mrpt::obs::CObservation& observation,
                     const Entry& entry, const RawlogSource::SensorDeviations& otherwise)
@@ -181,7 +182,7 @@ bool addObservation(core::Step& step, const ::mrpt::obs::CObservation& observati
   else if (const auto* b = dynamic_cast<const CObservationColorBlobs*>(&observation))
     addBlobs(step, *b, entry);
   else if (const auto* s = dynamic_cast<const CObservation2DRangeScan*>(&observation))
-    addLaser(step, *s, entry);
+    step.lasers.push_back(laserScanOf(*s, entry));
   else
     return false;
   return true;

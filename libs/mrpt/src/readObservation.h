@@ -6,6 +6,11 @@
 #include <slamot/core/Step.h>
 #include <slamot/mrpt/RawlogSource.h>
 
+namespace mrpt::obs
+{
+class CObservation2DRangeScan;
+}
+
 namespace slamot::mrpt
 {
 /// Adds what an observation saw to a step, in the robot's frame: landmark sightings, blobs and
@@ -14,4 +19,9 @@ namespace slamot::mrpt
 /// for a value that makes no sense; names the entry.
 bool addObservation(core::Step& step, const ::mrpt::obs::CObservation& observation,
                     const Entry& entry, const RawlogSource::SensorDeviations& otherwise);
+
+/// A laser's scan, counter-clockwise in the robot's plane, whichever way the sensor turns or is
+/// mounted.  \throws core::Error (kNonsense); names the entry.
+[[nodiscard]] std::shared_ptr<const core::LaserScan> laserScanOf(
+    const ::mrpt::obs::CObservation2DRangeScan& observation, const Entry& entry);
 }  // namespace slamot::mrpt

@@ -1,6 +1,6 @@
 #include "toObservations.h"
 
-#include "timestamp.h"
+#include <slamot/mrpt/timestamp.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationBearingRange.h>

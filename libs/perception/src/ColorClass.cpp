@@ -12,7 +12,7 @@ constexpr double kFullTurn = 360;  // [deg]
 // Hues stay in degrees: they are an image's, not the robot's.
 double hue(core::Params& p, const std::string& key, double otherwise)
 {
-  return math::radToDeg(p.inRange(key, 0, kFullTurn, otherwise));
+  return math::radToDeg(p.inRange(key, 0, kFullTurn, math::degToRad(otherwise)));
 }
 }  // namespace
 
@@ -49,9 +49,11 @@ ColorClass ColorClass::from(core::Params& p, const std::string& label)
   out.leastFill = p.inRange("min_fill", 0, 1, out.leastFill);
   out.mostOfImage = p.inRange("max_image_part", 0, 1, out.mostOfImage);
   out.joinGap = p.integer("join_gap_px", 0, 1000, out.joinGap);
+  out.object.radius = p.positive("radius_m", out.object.radius);
+  out.object.radiusStd = p.positive("radius_std_m", out.object.radiusStd);
   out.light.rate = p.inRange("light_rate", 0, 1, out.light.rate);
-  out.light.mostHueShift =
-      math::radToDeg(p.inRange("light_max_hue_shift_deg", 0, 90, out.light.mostHueShift));
+  out.light.mostHueShift = math::radToDeg(
+      p.inRange("light_max_hue_shift_deg", 0, 90, math::degToRad(out.light.mostHueShift)));
   out.light.mostFactor = p.inRange("light_max_factor", 1, 10, out.light.mostFactor);
   return out;
 }

@@ -94,27 +94,24 @@ struct Search
         });
     return out;
   }
-  /// Of all that are nearly as good, the middle: far from object and rest alike, where there is
-  /// nothing of either.
-  [[nodiscard]] Bounds middle(const Bounds& best) const
+  /// Of all that are nearly as good, the one that takes least of the colour space: other images
+  /// have other things around.  Then a little wider, as light changes, where that finds nothing
+  /// else.
+  [[nodiscard]] Bounds tightened(const Bounds& best) const
   {
-    constexpr double kNearly = 0.99, kStillGood = 0.98;
+    constexpr double kNearly = 0.97, kStillGood = 0.95;
     const double most = ratio(best);
-    double n = 0, first = 0, hues = 0, saturation = 0, value = 0;
+    const auto volume = [](const Bounds& b)
+    { return b.hues * (kShades - b.saturation) * (kShades - b.value); };
+    Bounds tight = best;
     forAll(
         [&](const Bounds& b)
         {
-          if (ratio(b) < kNearly * most) return;
-          const int turned = b.first - best.first;
-          const int off = turned > kHues / 2    ? turned - kHues
-                          : turned < -kHues / 2 ? turned + kHues
-                                                : turned;
-          n += 1, first += off, hues += b.hues, saturation += b.saturation, value += b.value;
+          if (volume(b) < volume(tight) && ratio(b) >= kNearly * most) tight = b;
         });
-    const auto mean = [&](double sum) { return static_cast<int>(std::lround(sum / n)); };
-    const Bounds out{(best.first + mean(first) + kHues) % kHues, mean(hues), mean(saturation),
-                     mean(value)};
-    return ratio(out) >= kStillGood * most ? out : best;
+    const Bounds wider{(tight.first + kHues - 1) % kHues, std::min(tight.hues + 2, kMostHues),
+                       tight.saturation * 17 / 20, tight.value * 14 / 20};
+    return ratio(wider) >= kStillGood * most ? wider : tight;
   }
 };
 
@@ -151,7 +148,7 @@ ColorProposal proposeColor(const cv::Mat& image, const cv::Rect& box)
   const cv::Mat hsv = asHsv(bgr), parts = partsOf(bgr.size(), box);
   const Histogram object(hsv, parts, kObject), outside(hsv, parts, kOutside);
   const Search search{object, outside, object.count(0, kHues, 0, 0)};
-  const Bounds bounds = search.middle(search.best());
+  const Bounds bounds = search.tightened(search.best());
 
   constexpr double kUnit = 360.0 / kHues;
   const double found = object.count(bounds.first, bounds.hues, bounds.saturation, bounds.value);

@@ -42,8 +42,6 @@ std::optional<RangedObject> seenAs(const Gaussian<Point2D>& center, const Gaze& 
 RangingOptions RangingOptions::from(core::Params& p)
 {
   RangingOptions out;
-  out.object.radius = p.positive("radius_m", out.object.radius);
-  out.object.radiusStd = p.positive("radius_std_m", out.object.radiusStd);
   out.gate = p.positive("gate_sigmas", out.gate);
   out.leastPoints = p.integer("min_points", 2, 1000, out.leastPoints);
   out.mostMisfit = p.positive("max_misfit", out.mostMisfit);

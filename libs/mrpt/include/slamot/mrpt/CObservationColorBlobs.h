@@ -45,6 +45,7 @@ class CObservationColorBlobs : public ::mrpt::obs::CObservation, public slamot_v
     double elevationStd = 0;      ///< [rad]
     std::optional<double> range;  ///< [m], along the line of sight; absent: not ranged
     double rangeStd = 0;          ///< [m]; meaningless without a range
+    bool cut = false;             ///< by the image's edge: part of the thing may be outside
   };
 
   ::mrpt::poses::CPose3D sensorPoseOnRobot;

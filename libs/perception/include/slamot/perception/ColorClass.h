@@ -1,6 +1,7 @@
 #pragma once
 
 #include <slamot/core/Params.h>
+#include <slamot/perception/fitCircle.h>
 
 #include <string>
 
@@ -35,10 +36,11 @@ struct ColorClass
   std::string label;  ///< of its blobs: "target", "robot", ...
   int id = -1;        ///< identity of the one thing that has this colour; -1: there may be several
   HsvRange range;
-  double leastArea = 30;     ///< [pixel²]
-  double leastFill = 0.3;    ///< part of its box that a blob covers [0 to 1]
-  double mostOfImage = 0.5;  ///< a blob that covers more is no object [0 to 1]
-  int joinGap = 2;           ///< pieces with no more than this between them are one blob [pixel]
+  double leastArea = 30;        ///< [pixel²]
+  double leastFill = 0.3;       ///< part of its box that a blob covers [0 to 1]
+  double mostOfImage = 0.5;     ///< a blob that covers more is no object [0 to 1]
+  int joinGap = 2;              ///< pieces with no more than this between them are one blob [pixel]
+  Roundness object{0.2, 0.05};  ///< outline of the thing, as a laser sees it
   LightTracking light;
 
   /// Section [color.<label>].  \throws core::Error (kConfig).

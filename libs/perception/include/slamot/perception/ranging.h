@@ -21,13 +21,13 @@ struct RangingOptions
     kNearest,  ///< what is behind is hidden
     kKeep      ///< one blob for each
   };
-  Roundness object{0.2, 0.05};  ///< the thing's outline, as a circle
+  Roundness object{0.2, 0.05};  ///< the thing's outline: its colour's
   double gate = 3;              ///< deviations between blob and object
   int leastPoints = 2;
   double mostMisfit = 25;  ///< see CircleFit::misfit: things are seldom round
   Ambiguous ambiguous = Ambiguous::kRefuse;
 
-  /// Keys radius_m, radius_std_m, gate_sigmas, min_points, max_misfit, ambiguous (refuse, nearest,
+  /// Keys gate_sigmas, min_points, max_misfit, ambiguous (refuse, nearest,
   /// keep).
   static RangingOptions from(core::Params& p);
 };

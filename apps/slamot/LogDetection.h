@@ -1,0 +1,58 @@
+#pragma once
+
+#include <slamot/mrpt/RawlogEditor.h>
+#include <slamot/perception/Pipeline.h>
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace slamot::apps
+{
+/// A rawlog on its way through a detection pipeline: entries wait until what was sensed within
+/// `max_time_apart_s` of them is known, and leave with what was found in them.
+class LogDetection
+{
+ public:
+  LogDetection(perception::Pipeline& pipeline, mrpt::RawlogEditor& editor, const std::string& log);
+
+  /// Takes in one entry, and lets go what has waited long enough; false at the end, when all is
+  /// written.  \throws core::Error.
+  bool advance();
+
+  [[nodiscard]] const perception::Pipeline::Counts& counts() const { return pipeline_.counts(); }
+  [[nodiscard]] std::vector<std::string> warnings() const;
+  [[nodiscard]] std::size_t entries() const { return entries_; }
+
+ private:
+  struct Sensed  // one observation of an entry
+  {
+    double time;
+    std::size_t index;                     // in the entry
+    std::optional<perception::Look> look;  // of an image
+  };
+  struct Item
+  {
+    double time;
+    mrpt::EditedEntry entry;
+    std::vector<Sensed> sensed;
+    bool ranged = false;
+  };
+  void take(mrpt::EditedEntry entry);
+  void takeObservation(Item& item, std::size_t index);
+  void takeImage(Sensed& sensed, const mrpt::SensedEntry& entry);
+  void takeOdometry(double time, const Pose2D& pose);
+  void range(Item& item);
+  void release(Item& item);
+
+  perception::Pipeline& pipeline_;
+  mrpt::RawlogEditor& editor_;
+  std::string images_;  // folder of those that the log keeps in files
+  std::deque<Item> waiting_;
+  double now_ = 0;
+  bool timed_ = false;
+  std::size_t entries_ = 0, unreadable_ = 0, blind_ = 0;
+  std::string unreadableWhat_;
+  std::optional<Pose2D> odometer_;
+};
+}  // namespace slamot::apps

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <slamot/core/Step.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mrpt::obs
+{
+class CObservation;
+}
+
+namespace slamot::mrpt
+{
+/// An observation on its way from one log to another.
+struct SensedEntry
+{
+  std::shared_ptr<const ::mrpt::obs::CObservation> observation;
+  std::shared_ptr<const core::LaserScan> laser;  ///< the same, of a laser; else null
+};
+
+/// One entry of a rawlog on its way to another.
+class EditedEntry
+{
+ public:
+  bool mayTakeObservations = false;  ///< a frame or an observation: something was sensed
+  std::optional<double> time;       ///< of its first observation that has one, or of its action [s]
+  std::optional<Pose2D> increment;  ///< of actions: how the robot moved
+  std::vector<SensedEntry> sensed;  ///< of classes that slamot reads; images too
+
+ private:
+  friend class RawlogEditor;
+  bool isFrame_ = false;
+  std::size_t countAt_ = 0;
+  std::vector<unsigned char> bytes_;
+};
+
+/// Copies a rawlog entry by entry, byte for byte, whatever its classes, and adds observations: to
+/// the frame that an entry is, else behind the entry.
+class RawlogEditor
+{
+ public:
+  /// The new log appears at `to` with close() only.
+  /// \throws core::Error (kUnreadable), also if both are one file.
+  RawlogEditor(const std::string& from, const std::string& to);
+  ~RawlogEditor();
+
+  /// \throws core::Error as RawlogSource does.
+  std::optional<EditedEntry> next();
+  void write(const EditedEntry& entry,
+             const std::vector<std::shared_ptr<::mrpt::obs::CObservation>>& added);
+  void close();
+  [[nodiscard]] double progress() const;
+
+  /// Where MRPT looks for the images that a log keeps in files: `<log>_Images` beside it.
+  [[nodiscard]] static std::string imagesFolder(const std::string& log);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+}  // namespace slamot::mrpt

@@ -1,0 +1,237 @@
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <slamot/mrpt/CObservationColorBlobs.h>
+#include <slamot/mrpt/RawlogSource.h>
+
+#include <fstream>
+
+#include "cameraLog.h"
+#include "program.h"
+
+namespace slamot::test
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+class SlamotDetect : public ::testing::Test
+{
+ protected:
+  SlamotDetect() { fs::create_directories(folder_); }
+  ~SlamotDetect() override { fs::remove_all(folder_); }
+
+  Outcome detect(const std::string& more = {})
+  {
+    return slamot(
+        "detect '" SLAMOT_SOURCE_DIR "/config-ini/detect.ini' in.rawlog -o out.rawlog " + more,
+        folder_.string());
+  }
+  [[nodiscard]] std::string path(const std::string& name) const
+  {
+    return (folder_ / name).string();
+  }
+  [[nodiscard]] std::vector<core::Step> steps(const std::string& name) const
+  {
+    mrpt::RawlogSource::Options options;
+    options.odometry.fromLog = false;
+    options.odometry.vStd = 0.1;
+    options.odometry.omegaStd = 0.1;
+    mrpt::RawlogSource source(path(name), options);
+    std::vector<core::Step> out;
+    while (auto step = source.next()) out.push_back(*step);
+    return out;
+  }
+
+  /// Every look must have seen the target where it was, most of them with its range.
+  void expectTarget(const std::vector<core::Step>& all, std::size_t looks) const
+  {
+    std::size_t seen = 0, ranged = 0;
+    for (const core::Step& step : all)
+    {
+      if (!step.blobs) continue;
+      ++seen;
+      const Circle target = CameraLog::targetAt(step.time);
+      const Pose2D at = math::between(CameraLog::robotAt(step.time), {target.at.x, target.at.y, 0});
+      ASSERT_EQ(step.blobs->blobs.size(), 1u) << step.time;
+      const core::Blob& b = step.blobs->blobs[0];
+      EXPECT_EQ(b.label, "target");
+      if (!b.range) continue;
+      ++ranged;
+      EXPECT_NEAR(*b.range, std::hypot(at.x, at.y), 5 * b.rangeStd) << step.time;
+      EXPECT_LT(b.rangeStd, 0.06);
+      EXPECT_NEAR(b.bearing, std::atan2(at.y, at.x), 5 * b.bearingStd) << step.time;
+      EXPECT_LT(b.bearingStd, 0.02);
+    }
+    EXPECT_EQ(seen, looks);
+    EXPECT_GE(ranged, looks * 9 / 10);
+  }
+  /// Every sighting must be of a post, and most posts in view be sighted.
+  static void expectPosts(const std::vector<core::Step>& all, std::size_t scans)
+  {
+    std::size_t seen = 0, sightings = 0;
+    for (const core::Step& step : all)
+    {
+      if (!step.landmarks) continue;
+      ++seen;
+      for (const core::Sighting& s : step.landmarks->sightings)
+      {
+        ++sightings;
+        const Point2D at =
+            math::transform(CameraLog::robotAt(step.time),
+                            {s.range * std::cos(s.bearing), s.range * std::sin(s.bearing)});
+        double nearest = 1e9;
+        for (const Circle& c : CameraLog::posts())
+          nearest = std::min(nearest, std::hypot(c.at.x - at.x, c.at.y - at.y));
+        EXPECT_LT(nearest, 0.15) << step.time;
+      }
+    }
+    EXPECT_EQ(seen, scans);
+    EXPECT_GT(sightings, 4 * scans);
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("slamot-detect-" + std::to_string(::getpid()));
+};
+
+TEST_F(SlamotDetect, AddsBlobsAndPostsToObservations)
+{
+  CameraLog::write(path("in.rawlog"));
+  const Outcome o = detect();
+  ASSERT_EQ(o.status, 0) << o.text;
+  EXPECT_NE(o.text.find("40 blobs in 40 images"), std::string::npos) << o.text;
+  const auto all = steps("out.rawlog");
+  expectTarget(all, 40);
+  expectPosts(all, 40);
+  const Outcome info = slamot("info out.rawlog", folder_.string());
+  for (const char* part : {"CAMERA_BLOBS", "LASER_LANDMARKS", "CObservationImage"})
+    EXPECT_NE(info.text.find(part), std::string::npos) << info.text;
+}
+
+TEST_F(SlamotDetect, AddsThemToFrames)
+{
+  CameraLogOptions options;
+  options.frames = true;
+  options.jpeg = false;
+  CameraLog::write(path("in.rawlog"), options);
+  const Outcome o = detect();
+  ASSERT_EQ(o.status, 0) << o.text;
+  const auto all = steps("out.rawlog");
+  EXPECT_EQ(all.size(), 40u);
+  expectTarget(all, 40);
+  expectPosts(all, 40);
+}
+
+TEST_F(SlamotDetect, ReadsImagesBesideTheLog)
+{
+  CameraLogOptions options;
+  options.filesBeside = true;
+  options.steps = 5;
+  CameraLog::write(path("in.rawlog"), options);
+  ASSERT_EQ(detect().status, 0);
+  expectTarget(steps("out.rawlog"), 5);
+  EXPECT_TRUE(fs::exists(path("out_Images/camera_0.png")));  // the new log finds them too
+  fs::remove(path("in_Images/camera_2.png"));
+  std::ofstream(path("in_Images/camera_3.png")) << "no image";
+  const Outcome o =
+      slamot("detect '" SLAMOT_SOURCE_DIR "/config-ini/detect.ini' in.rawlog -o other.rawlog",
+             folder_.string());
+  EXPECT_EQ(o.status, 0);
+  EXPECT_NE(o.text.find("2 images can't be read"), std::string::npos) << o.text;
+  expectTarget(steps("other.rawlog"), 3);
+}
+
+TEST_F(SlamotDetect, KeepsAllTheRestByteForByte)
+{
+  CameraLogOptions options;
+  options.steps = 5;
+  CameraLog::write(path("in.rawlog"), options);
+  const Outcome o = detect("--set detect.colors=none --set detect.landmarks=corners");
+  ASSERT_EQ(o.status, 0) << o.text;
+  // Corners are in none of the scans: taking the empty observations out leaves the log as it was.
+  const auto before = steps("in.rawlog"), after = steps("out.rawlog");
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    EXPECT_EQ(before[i].time, after[i].time);
+    EXPECT_EQ(before[i].lasers.size(), after[i].lasers.size());
+    EXPECT_EQ(after[i].landmarks.has_value(), !after[i].lasers.empty());
+  }
+}
+
+TEST_F(SlamotDetect, RefusesWhatItCannotUse)
+{
+  CameraLogOptions options;
+  options.steps = 3;
+  CameraLog::write(path("in.rawlog"), options);
+  const auto expect = [&](int status, const std::string& more, const std::string& part)
+  {
+    fs::remove(path("out.rawlog"));
+    const Outcome o = detect(more);
+    EXPECT_EQ(o.status, status) << more << ": " << o.text;
+    EXPECT_NE(o.text.find(part), std::string::npos) << o.text;
+    EXPECT_FALSE(fs::exists(path("out.rawlog"))) << more;
+  };
+  expect(1, "--set detect.landmarks=flowers", "landmark detector 'flowers' is unknown");
+  expect(1, "--set detect.colors=none --set detect.landmarks=none", "nothing to detect");
+  expect(1, "--set color.target.hue_min_deg=400", "hue_min_deg");
+  expect(1, "--set color.target.hue=4", "unknown key");
+  expect(1, "--set detect.colors=targt", "has no section [color.targt]");
+  const Outcome same =
+      slamot("detect '" SLAMOT_SOURCE_DIR "/config-ini/detect.ini' in.rawlog -o in.rawlog",
+             folder_.string());
+  EXPECT_EQ(same.status, 2) << same.text;
+  // Cut short, it is worth nothing.
+  fs::resize_file(path("in.rawlog"), fs::file_size(path("in.rawlog")) * 2 / 3);
+  expect(3, "", "ends");
+  std::ofstream(path("in.rawlog")) << "no log";
+  expect(2, "", "is not a rawlog");
+}
+
+TEST_F(SlamotDetect, AnyFlippedByteEndsInOneLineOrInALog)
+{
+  CameraLogOptions options;
+  options.steps = 2;
+  CameraLog::write(path("in.gz.rawlog"), options);
+  // Unpacked, so that a flip reaches the parser.
+  ASSERT_EQ(
+      std::system(
+          ("gzip -dc < '" + path("in.gz.rawlog") + "' > '" + path("whole.rawlog") + "'").c_str()),
+      0);
+  std::ifstream in(path("whole.rawlog"), std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  math::RandomStream random{5};
+  for (int i = 0; i < 25; ++i)
+  {
+    std::string flipped = whole;
+    // Half of them in the first kilobytes, where the headers and the camera are.
+    const double reach = i % 2 == 0 ? 4000 : static_cast<double>(whole.size());
+    flipped[static_cast<std::size_t>(random.uniform(0, reach))] ^= static_cast<char>(1 << (i % 8));
+    std::ofstream(path("in.rawlog"), std::ios::binary) << flipped;
+    const Outcome o = detect("-q");
+    EXPECT_TRUE(o.status == 0 || (o.status >= 2 && o.status <= 5)) << o.status << o.text;
+    if (o.status != 0)
+    {
+      EXPECT_NE(o.text.find("slamot: error: "), std::string::npos) << o.text;
+    }
+  }
+}
+
+TEST_F(SlamotDetect, ProposesAColour)
+{
+  cv::Mat image = perception::test::background();
+  perception::test::drawDisc(image, {300, 200}, 40, perception::test::color(25, 0.9, 0.8));
+  cv::imwrite(path("photo.png"), image);
+  const Outcome o =
+      slamot("calibrate-color photo.png --box 260,160,81,81 --label ball", folder_.string());
+  ASSERT_EQ(o.status, 0) << o.text;
+  std::ofstream(path("ball.ini")) << o.text << "[detect]\ncolors = ball\nlandmarks = none\n";
+  CameraLogOptions options;
+  options.steps = 3;
+  CameraLog::write(path("in.rawlog"), options);
+  const Outcome found = slamot("detect ball.ini in.rawlog -o out.rawlog", folder_.string());
+  EXPECT_NE(found.text.find("3 blobs in 3 images"), std::string::npos) << found.text;
+  EXPECT_EQ(slamot("calibrate-color photo.png --box 600,0,100,100", folder_.string()).status, 1);
+  EXPECT_EQ(slamot("calibrate-color photo.png --box 1,2,3", folder_.string()).status, 1);
+  EXPECT_EQ(slamot("calibrate-color ball.ini --box 1,2,3,4", folder_.string()).status, 2);
+}
+}  // namespace
+}  // namespace slamot::test
