@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "importOptions.h"
-
 namespace slamot::apps
 {
 namespace
@@ -16,17 +14,10 @@ using core::ExitStatus;
 void addSensorOptions(CLI::App& command, MrclamImport& o)
 {
   importers::MrclamOptions& m = o.options;
-  importers::WheelNoise& wheels = m.wheels;
-  const std::vector<CLI::Option*> options = {
-      command.add_option("--std-distance", wheels.distance, "Odometry's distance [m/sqrt(s)]"),
-      command.add_option("--std-distance-turning", wheels.distanceTurning,
-                         "The same while turning [m/sqrt(rad turned)]"),
-      addDegrees(command, "--std-heading", wheels.heading, "Odometry's heading [deg/sqrt(s)]"),
-      command.add_option("--std-heading-turning", wheels.headingTurning,
-                         "The same while turning [rad/sqrt(rad turned)]"),
-      command.add_option("--std-range", m.rangeStd, "Ranges [m]")};
-  for (CLI::Option* option : options)
-    option->type_name("STD")->check(CLI::Range(0.0, 1e3))->capture_default_str();
+  command.add_option("--std-range", m.rangeStd, "Ranges [m]")
+      ->type_name("STD")
+      ->check(CLI::Range(0.0, 1e3))
+      ->capture_default_str();
 }
 
 void addTeamOptions(CLI::App& command, MrclamImport& o)
@@ -70,9 +61,6 @@ void MrclamImport::addTo(CLI::App& command)
                    "Sightings tell which landmark they are of (default), or not");
   command.add_flag("--target-ids,!--no-target-ids", m.targetIds,
                    "Blobs tell which robot they are of (default), or not");
-  command.add_option("--start", start, "Where the robot starts: at its true pose or the origin")
-      ->check(CLI::IsMember({"truth", "origin"}))
-      ->capture_default_str();
   command.add_option("--max-step", m.maxStep, "Longest step between camera images [s]")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str()

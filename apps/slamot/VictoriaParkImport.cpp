@@ -18,10 +18,6 @@ void addCalibration(CLI::App& command, importers::VictoriaParkOptions& o)
   addDegrees(command, "--laser-yaw", o.laserYaw, "The laser is turned to the left by [deg]")
       ->check(CLI::Range(-20.0, 20.0))
       ->type_name("DEG");
-  command.add_option("--laser-delay", o.laserDelay, "Scans were taken before their times by [s]")
-      ->check(CLI::Range(-1.0, 1.0))
-      ->capture_default_str()
-      ->type_name("S");
 }
 
 void addNoise(CLI::App& command, importers::VictoriaParkOptions& o)
@@ -29,8 +25,6 @@ void addNoise(CLI::App& command, importers::VictoriaParkOptions& o)
   const std::vector<CLI::Option*> options = {
       command.add_option("--std-speed", o.noise.speed, "Speed, part of it, held for 1 m"),
       addDegrees(command, "--std-steering", o.noise.steering, "Steering [deg], held for 1 m"),
-      addDegrees(command, "--std-slip", o.noise.slip,
-                 "Direction of driving against the car's [deg], held for 1 m"),
       command.add_option("--std-trunk", o.trunkStd,
                          "A trunk's middle, along and across the ray [m]")};
   for (CLI::Option* option : options)
@@ -41,10 +35,6 @@ void addNoise(CLI::App& command, importers::VictoriaParkOptions& o)
 void VictoriaParkImport::addTo(CLI::App& command)
 {
   command.add_flag("--lasers", options.lasers, "The laser scans too, not only their trees");
-  command.add_option("--max-range", options.maxRange, "Farther trees are left out [m]")
-      ->check(CLI::Range(2.0, 80.0))
-      ->capture_default_str()
-      ->type_name("M");
   addCalibration(command, options);
   addNoise(command, options);
 }

@@ -32,7 +32,8 @@ struct EvaluateCommand
 
 bool isEmpty(const eval::Truth& t)
 {
-  return t.robot.empty() && t.targets.empty() && t.landmarks.empty() && t.associations.empty();
+  return t.robot.empty() && t.targets.empty() && t.landmarks.empty() && t.associations.empty() &&
+         t.relations.empty();
 }
 
 // PREFIX may be the folder of truth, the log it goes with, or one trajectory of the robot.

@@ -3,14 +3,14 @@
 #include <slamot/mrpt/RawlogWriter.h>
 #include <slamot/results/TruthFiles.h>
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "Command.h"
-#include "MrclamImport.h"
+#include "SharedImport.h"
 #include "TeamLogs.h"
-#include "VictoriaParkImport.h"
-#include "importOptions.h"
 #include "rawlogOutput.h"
 
 namespace slamot::apps
@@ -21,27 +21,31 @@ namespace fs = std::filesystem;
 using core::Error;
 using core::ExitStatus;
 
+constexpr std::array kKinds = {"csv", "mrclam", "victoria-park", "carmen", "scaled-cars"};
+
 struct ImportOptions
 {
   std::string kind, source, output;
   bool quiet = false;
   double startTime = 0;
-  MrclamImport mrclam;
-  VictoriaParkImport park;
-  SensorImport sensor;
+  KindImports kinds;
+  SharedImport shared;
 };
 
 std::unique_ptr<importers::Import> open(const ImportOptions& o)
 {
   if (o.kind == "csv") return importers::openCsvFolder(o.source, o.startTime);
-  if (o.kind == "victoria-park") return importers::openVictoriaPark(o.source, o.park.options);
-  return importers::openMrclam(o.source, o.mrclam.of(o.mrclam.options.robot));
+  if (o.kind == "victoria-park") return importers::openVictoriaPark(o.source, o.kinds.park.options);
+  if (o.kind == "carmen") return importers::openCarmen(o.source, o.kinds.carmen.options);
+  if (o.kind == "scaled-cars") return importers::openScaledCars(o.source, o.kinds.cars.options);
+  const MrclamImport& mrclam = o.kinds.mrclam;
+  return importers::openMrclam(o.source, mrclam.of(mrclam.options.robot));
 }
 
 bool holdsNothing(const eval::Truth& truth)
 {
   return truth.robot.empty() && truth.targets.empty() && truth.landmarks.empty() &&
-         truth.associations.empty();
+         truth.associations.empty() && truth.relations.empty();
 }
 
 void report(const std::string& path, const importers::Import& source, const std::string& truth)
@@ -101,9 +105,9 @@ ExitStatus importTeam(const ImportOptions& o)
 {
   TeamLogs logs(o.output);
   std::vector<std::pair<int, std::unique_ptr<importers::Import>>> sources;
-  for (const int robot : importers::mrclamTeam(*o.mrclam.options.target))
+  for (const int robot : importers::mrclamTeam(*o.kinds.mrclam.options.target))
   {
-    auto source = importers::openMrclam(o.source, o.mrclam.of(robot));
+    auto source = importers::openMrclam(o.source, o.kinds.mrclam.of(robot));
     mrpt::RawlogWriter writer = openLog(logs.partOf(robot), *source);
     if (!writeSteps(*source, writer)) return ExitStatus::kInterrupted;
     writer.close();
@@ -118,7 +122,7 @@ ExitStatus importTeam(const ImportOptions& o)
 
 int import(const ImportOptions& o)
 {
-  return static_cast<int>(o.mrclam.team ? importTeam(o) : importOne(o));
+  return static_cast<int>(o.kinds.mrclam.team ? importTeam(o) : importOne(o));
 }
 
 /// Options of another kind say nothing here: naming them is a mistake.
@@ -130,48 +134,34 @@ void refuseOptions(const CLI::App& group, const std::string& kind)
                   option->get_name() + " is an option of " + kind, "remove it");
 }
 
-/// The groups of options that only some kinds have.
-struct Groups
-{
-  CLI::App *csv, *mrclam, *park, *sensor;
-};
+/// The groups of options that only one kind has, by its name.
+using Groups = std::map<std::string, CLI::App*>;
 
 Groups addGroups(CLI::App& command, ImportOptions& o)
 {
-  Groups out{command.add_option_group("csv", "Options of csv"),
-             command.add_option_group("mrclam", "Options of mrclam"),
-             command.add_option_group("victoria-park", "Options of victoria-park"),
-             command.add_option_group("sensor", "Options of mrclam and victoria-park")};
-  out.csv
+  Groups out;
+  for (const char* kind : kKinds)
+    out[kind] = command.add_option_group(kind, std::string("Options of ") + kind);
+  out["csv"]
       ->add_option("--start-time", o.startTime,
                    "When the first step starts [s], for times that count from an epoch")
       ->check(CLI::Range(0.0, 1e10))
       ->capture_default_str()
       ->type_name("T");
-  o.mrclam.addTo(*out.mrclam);
-  o.park.addTo(*out.park);
-  o.sensor.addTo(*out.sensor);
+  o.kinds.mrclam.addTo(*out["mrclam"]);
+  o.kinds.park.addTo(*out["victoria-park"]);
+  o.kinds.carmen.addTo(*out["carmen"]);
+  o.kinds.cars.addTo(*out["scaled-cars"]);
+  o.shared.addTo(*command.add_option_group("shared", "Options of several kinds"), o.kinds);
   return out;
 }
 
 void checkKind(const Groups& groups, const ImportOptions& o)
 {
-  if (o.kind != "csv") refuseOptions(*groups.csv, "csv");
-  if (o.kind != "mrclam") refuseOptions(*groups.mrclam, "mrclam");
-  if (o.kind != "victoria-park") refuseOptions(*groups.park, "victoria-park");
-  if (o.kind == "csv") refuseOptions(*groups.sensor, "mrclam and victoria-park");
-  if (o.kind == "mrclam") o.mrclam.check(*groups.mrclam);
-}
-
-/// What was asked of the sensor, to the kind that it is for.
-void shareSensor(ImportOptions& o)
-{
-  importers::MrclamOptions& mrclam = o.mrclam.options;
-  importers::VictoriaParkOptions& park = o.park.options;
-  mrclam.rangeScaleStd = o.sensor.rangeScaleStd.value_or(mrclam.rangeScaleStd);
-  mrclam.bearingStd = o.sensor.bearingStd.value_or(mrclam.bearingStd);
-  park.rangeScaleStd = o.sensor.rangeScaleStd.value_or(park.rangeScaleStd);
-  park.bearingStd = o.sensor.bearingStd.value_or(park.bearingStd);
+  for (const auto& [kind, group] : groups)
+    if (kind != o.kind) refuseOptions(*group, kind);
+  o.shared.check(o.kind);
+  if (o.kind == "mrclam") o.kinds.mrclam.check(*groups.at("mrclam"));
 }
 }  // namespace
 
@@ -184,12 +174,15 @@ void addImport(CLI::App& app, int& status)
                          "Example: slamot import csv my-drive/ -o my-drive.rawlog\n"
                          "         slamot import mrclam dataset6/ --robot 1 -o robot1.rawlog\n"
                          "         slamot import mrclam dataset6/ --team --target 5 -o all.rawlog\n"
-                         "         slamot import victoria-park park/ -o park.rawlog");
+                         "         slamot import victoria-park park/ -o park.rawlog\n"
+                         "         slamot import carmen intel.log.gz -o intel.rawlog\n"
+                         "         slamot import scaled-cars overtakes/ -o overtakes.rawlog");
   command
       ->add_option("kind", options->kind,
-                   "csv: a folder of CSV files; mrclam, victoria-park: the dataset's folder")
+                   "csv: a folder of CSV files; mrclam, victoria-park, scaled-cars: the dataset's "
+                   "folder; carmen: a log")
       ->required()
-      ->check(CLI::IsMember({"csv", "mrclam", "victoria-park"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kKinds.begin(), kKinds.end())))
       ->type_name("KIND");
   command->add_option("source", options->source, "Where the data is")
       ->required()
@@ -205,7 +198,6 @@ void addImport(CLI::App& app, int& status)
       [options, groups, &status]
       {
         checkKind(groups, *options);
-        shareSensor(*options);
         status = import(*options);
       });
 }

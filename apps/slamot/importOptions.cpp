@@ -1,7 +1,5 @@
 #include "importOptions.h"
 
-#include <slamot/math/geometry.h>
-
 #include <cstdio>
 
 namespace slamot::apps
@@ -17,18 +15,27 @@ CLI::Option* addDegrees(CLI::App& command, const std::string& name, double& radi
       ->default_str(text);
 }
 
-void SensorImport::addTo(CLI::App& command)
+CLI::Option* addPose(CLI::App& command, const std::string& name,
+                     std::function<void(const Pose2D&)> set, const std::string& what)
 {
-  command
-      .add_option("--std-range-scale", rangeScaleStd,
-                  "Ranges, part of the range, added in squares (mrclam 0.04, victoria-park 0.004)")
-      ->type_name("STD")
-      ->check(CLI::Range(0.0, 1e3));
-  command
-      .add_option_function<double>(
-          "--std-bearing", [this](double degrees) { bearingStd = math::degToRad(degrees); },
-          "Bearings [deg] (mrclam 0.8, victoria-park 0.2)")
-      ->type_name("STD")
-      ->check(CLI::Range(0.0, 1e3));
+  return command
+      .add_option_function<std::vector<double>>(
+          name,
+          [set = std::move(set)](const std::vector<double>& v) {
+            set({v[0], v[1], math::wrapToPi(math::degToRad(v[2]))});
+          },
+          what)
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Range(-360.0, 360.0))
+      ->type_name("X,Y,DEG");
+}
+
+std::string enumerate(const std::vector<std::string>& names)
+{
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return out;
 }
 }  // namespace slamot::apps

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <slamot/math/geometry.h>
+
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace slamot::apps
 {
@@ -10,12 +12,10 @@ namespace slamot::apps
 CLI::Option* addDegrees(CLI::App& command, const std::string& name, double& radians,
                         const std::string& what);
 
-/// Options that several kinds of import have, each kind with its own default.
-struct SensorImport
-{
-  std::optional<double> rangeScaleStd;  ///< part of the range
-  std::optional<double> bearingStd;     ///< [rad]
+/// An option X,Y,DEG for a pose, given to `set` in metres and radians.
+CLI::Option* addPose(CLI::App& command, const std::string& name,
+                     std::function<void(const Pose2D&)> set, const std::string& what);
 
-  void addTo(CLI::App& command);
-};
+/// "a", "a and b", "a, b and c".
+std::string enumerate(const std::vector<std::string>& names);
 }  // namespace slamot::apps

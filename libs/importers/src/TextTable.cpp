@@ -60,6 +60,13 @@ TextTable TextTable::blanks(const std::string& path, Names names)
   return table;
 }
 
+TextTable TextTable::words(const std::string& path)
+{
+  TextTable table(path, ' ');
+  table.anyLength_ = true;
+  return table;
+}
+
 std::size_t TextTable::matchHeader(const std::vector<Names>& headers) const
 {
   for (std::size_t i = 0; i < headers.size(); ++i)
@@ -98,15 +105,21 @@ bool TextTable::skipBlankEnd()
   return false;
 }
 
+bool TextTable::skips(std::string_view line) const
+{
+  const bool comment = separator_ == ' ' && !line.empty() && line.front() == '#';
+  return comment || (anyLength_ && trim(line).empty());
+}
+
 bool TextTable::next()
 {
   std::optional<std::string_view> line;
   do line = lines_.next();
-  while (line && separator_ == ' ' && !line->empty() && line->front() == '#');
+  while (line && skips(*line));
   if (!line) return false;
   if (trim(*line).empty()) return skipBlankEnd();
   split(*line);
-  if (fields_.size() != names_.size())
+  if (!anyLength_ && fields_.size() != names_.size())
     fail(ExitStatus::kUnreadable,
          "the row has " + std::to_string(fields_.size()) + " columns instead of " +
              std::to_string(names_.size()),
@@ -179,6 +192,8 @@ void TextTable::fail(ExitStatus status, const std::string& what, const std::stri
 void TextTable::failAt(std::size_t column, ExitStatus status, const std::string& what,
                        const std::string& mend) const
 {
-  fail(status, "column " + names_[column] + ": " + what, mend);
+  const std::string name =
+      anyLength_ ? "field " + std::to_string(column + 1) : "column " + names_[column];
+  fail(status, name + ": " + what, mend);
 }
 }  // namespace slamot::importers

@@ -133,6 +133,9 @@ std::unique_ptr<Import> openVictoriaPark(const std::string& folder,
       std::hypot(options.trunkStd, options.bearingStd) <= 0)
     throw core::Error(core::ExitStatus::kConfig, "--std-trunk, --std-range-scale, --std-bearing",
                       "no sensor is exact", "give a deviation above zero");
+  if (!(options.maxRange >= 2 && options.maxRange <= 80))
+    throw core::Error(core::ExitStatus::kConfig, "--max-range", "the laser reaches from 1 to 80 m",
+                      "give 2 to 80");
   return std::make_unique<VictoriaPark>(folder, options);
 }
 }  // namespace slamot::importers

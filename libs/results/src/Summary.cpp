@@ -101,7 +101,8 @@ std::string summaryJson(const RunInfo& info, const eval::Record& record,
                {"association", associationJson(evaluation.association)},
                {"particles", particlesJson(record)},
                {"target_set", targetSetJson(evaluation.targetSet)},
-               {"rigid", rigidJson(evaluation.rigid)}});
+               {"rigid", rigidJson(evaluation.rigid)},
+               {"relations", relationsJson(evaluation.relations)}});
 }
 
 std::string evaluationJson(const eval::Record& record, const eval::Evaluation& evaluation)
@@ -117,7 +118,8 @@ std::string evaluationJson(const eval::Record& record, const eval::Evaluation& e
               {"association", associationJson(evaluation.association)},
               {"particles", particlesJson(record)},
               {"target_set", targetSetJson(evaluation.targetSet)},
-              {"rigid", rigidJson(evaluation.rigid)}};
+              {"rigid", rigidJson(evaluation.rigid)},
+              {"relations", relationsJson(evaluation.relations)}};
   for (const auto& target : evaluation.targets) out["targets"].push_back(detailedTarget(target));
   for (const auto& target : evaluation.trueTargets)
     out["true_targets"].push_back(detailedTarget(target));

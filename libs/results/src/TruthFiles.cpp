@@ -16,6 +16,7 @@ using core::ExitStatus;
 constexpr const char* kRobot = "robot.tum";
 constexpr const char* kLandmarks = "landmarks.csv";
 constexpr const char* kAssociations = "associations.csv";
+constexpr const char* kRelations = "relations.csv";
 
 void requireHeader(LineReader& line, const std::string& header)
 {
@@ -70,6 +71,22 @@ std::vector<eval::TrueAssociation> loadAssociations(const std::string& path)
   return out;
 }
 
+std::vector<eval::Relation> loadRelations(const std::string& path)
+{
+  std::vector<eval::Relation> out;
+  LineReader line(path);
+  requireHeader(line, "t1,t2,dx,dy,dtheta");
+  while (const auto row = nextRow(line, 5))
+  {
+    const auto number = [&](std::size_t i, const char* name)
+    { return line.number((*row)[i], name); };
+    out.push_back({number(0, "t1"),
+                   number(1, "t2"),
+                   {number(2, "dx"), number(3, "dy"), math::wrapToPi(number(4, "dtheta"))}});
+  }
+  return out;
+}
+
 std::string targetFile(int id)
 {
   return "target_" + std::to_string(id) + ".tum";
@@ -97,6 +114,23 @@ std::vector<std::string> namesIn(const std::string& folder)
   return names;
 }
 
+std::string relationsText(const std::vector<eval::Relation>& relations)
+{
+  std::string text = "t1,t2,dx,dy,dtheta\n";
+  for (const eval::Relation& r : relations)
+  {
+    const Pose2D& p = r.pose_from_to;
+    const char* separator = "";
+    for (const double v : {r.from, r.to, p.x, p.y, p.phi})
+    {
+      appendFixed(text += separator, v, 9);
+      separator = ",";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 std::map<std::string, std::string> csvFiles(const eval::Truth& truth)
 {
   std::map<std::string, std::string> files;
@@ -116,6 +150,7 @@ std::map<std::string, std::string> csvFiles(const eval::Truth& truth)
     appendFixed(text, a.time, 9);
     text += ',' + std::to_string(a.index) + ',' + std::to_string(a.id) + '\n';
   }
+  if (!truth.relations.empty()) files[kRelations] = relationsText(truth.relations);
   return files;
 }
 
@@ -127,7 +162,8 @@ void makeEmptyOfTruth(const std::string& folder)
     throw Error(ExitStatus::kUnreadable, folder, "can't be made: " + error.message(),
                 "write elsewhere");
   for (const std::string& name : namesIn(folder))
-    if (name == kRobot || name == kLandmarks || name == kAssociations || targetOf(name))
+    if (name == kRobot || name == kLandmarks || name == kAssociations || name == kRelations ||
+        targetOf(name))
       fs::remove(fs::path(folder) / name, error);
 }
 }  // namespace
@@ -148,6 +184,7 @@ eval::Truth loadTruth(const std::string& folder)
     const std::string path = (fs::path(folder) / name).string();
     if (name == kRobot) truth.robot = loadTum(path);
     if (name == kLandmarks) truth.landmarks = loadLandmarks(path);
+    if (name == kRelations) truth.relations = loadRelations(path);
     if (name == kAssociations) truth.associations = loadAssociations(path);
     if (const auto id = targetOf(name)) truth.targets[*id] = loadTum(path);
   }

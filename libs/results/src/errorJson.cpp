@@ -77,6 +77,14 @@ Json associationJson(const std::optional<eval::AssociationCounts>& a)
           {"paired_of_clutter", orNull(a->pairedOfClutter())}};
 }
 
+Json relationsJson(const std::optional<eval::RelationErrors>& r)
+{
+  if (!r) return nullptr;
+  return {{"count", r->count},
+          {"translation_mean_error_m", orNull(r->translationMean)},
+          {"rotation_mean_error_rad", orNull(r->rotationMean)}};
+}
+
 Json rigidJson(const std::optional<eval::RigidEvaluation>& r)
 {
   if (!r) return nullptr;

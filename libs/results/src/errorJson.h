@@ -21,5 +21,6 @@ Json orNull(const std::optional<T>& value)
 [[nodiscard]] Json landmarksJson(const eval::LandmarkEvaluation& l);
 [[nodiscard]] Json targetSetJson(const std::optional<eval::TargetSetErrors>& t);
 [[nodiscard]] Json associationJson(const std::optional<eval::AssociationCounts>& a);
+[[nodiscard]] Json relationsJson(const std::optional<eval::RelationErrors>& r);
 [[nodiscard]] Json rigidJson(const std::optional<eval::RigidEvaluation>& r);
 }  // namespace slamot::results

@@ -122,6 +122,16 @@ std::string rigidLines(const std::optional<eval::RigidEvaluation>& r)
   return text + landmarkLine("  landmarks", r->landmarks) + landmarkDetail(r->landmarks);
 }
 
+std::string relationsLine(const std::optional<eval::RelationErrors>& r)
+{
+  if (!r) return {};
+  std::string line = left("relations") + std::to_string(r->count) + " between its poses";
+  if (r->translationMean)
+    line += "; mean errors " + fixed(*r->translationMean, 3) + " m, " + fixed(*r->rotationMean, 4) +
+            " rad";
+  return line + "\n";
+}
+
 std::string percentOf(const char* what, const std::optional<double>& share)
 {
   return share ? std::string("; ") + what + " " + fixed(100 * *share, 1) + "%" : "";
@@ -158,6 +168,7 @@ std::string summaryTable(const eval::Record& record, const eval::Evaluation& e, 
   if (e.robot.all.coverage95 && e.robot.all.neesSkipped > 0)
     text += left("") + "NEES leaves out " + std::to_string(e.robot.all.neesSkipped) +
             " of the robot's steps, where its covariance is singular, as at an exact start\n";
+  text += relationsLine(e.relations);
   if (detailed) text += targetSetLines(e.targetSet);
   text += landmarkLine("landmarks", e.landmarks);
   if (detailed) text += landmarkDetail(e.landmarks);

@@ -124,6 +124,15 @@ struct RigidEvaluation
   LandmarkEvaluation landmarks;
 };
 
+/// Errors of a path over relations, each between two of its poses: free of where the path lies as a
+/// whole, and of what was gathered before and after.
+struct RelationErrors
+{
+  int count = 0;                          ///< relations whose times are both those of poses
+  std::optional<double> translationMean;  ///< [m]
+  std::optional<double> rotationMean;     ///< [rad]
+};
+
 struct Evaluation
 {
   Align align = Align::kNone;
@@ -137,6 +146,7 @@ struct Evaluation
   LandmarkEvaluation landmarks;
   std::optional<AssociationCounts> association;  ///< none: the filter pairs nothing
   std::optional<RigidEvaluation> rigid;          ///< none without the robot's truth
+  std::optional<RelationErrors> relations;       ///< none: truth has none
 };
 
 struct EvaluationOptions
@@ -151,6 +161,13 @@ struct EvaluationOptions
   Point2D leverArm{0, 0};
   std::vector<double> sinceSeenEdges = {0, 1, 3, 10, 30, 1e9};  ///< [s]
 };
+
+/// Mean errors over the relations whose times are both within `tolerance` [s] of a pose: how far
+/// and by what angle the path's relation is off the reference's.  None if there are no relations.
+/// Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", 2009, equations 4 and 5, not
+/// squared.
+[[nodiscard]] std::optional<RelationErrors> evaluateRelations(
+    const Trajectory& path, const std::vector<Relation>& relations, double tolerance = 5e-4);
 
 /// Errors and consistency of a run.  What has no truth is absent; nothing is ever NaN.  Where the
 /// truth does not allow the alignment asked for, none is made, and the result's `align` says so.

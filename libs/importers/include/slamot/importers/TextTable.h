@@ -21,6 +21,9 @@ class TextTable
   static TextTable csv(const std::string& path);
   /// Separated by blanks or tabs; lines that start with `#` are comments.
   static TextTable blanks(const std::string& path, Names names);
+  /// The same with rows of any length, whose fields have numbers in place of names; blank lines may
+  /// come anywhere.
+  static TextTable words(const std::string& path);
 
   /// Which of the headers the file has.  \throws core::Error (kUnreadable) if it has none of them.
   std::size_t matchHeader(const std::vector<Names>& headers) const;
@@ -54,9 +57,11 @@ class TextTable
   TextTable(const std::string& path, char separator) : lines_(path), separator_(separator) {}
   void split(std::string_view line);
   bool skipBlankEnd();
+  [[nodiscard]] bool skips(std::string_view line) const;
 
   LineReader lines_;
   char separator_;
+  bool anyLength_ = false;
   Names names_;
   std::vector<std::string_view> fields_;
 };
