@@ -46,6 +46,24 @@ inline void expectNear(const Gaussian<Pose2D>& a, const Gaussian<Pose2D>& b)
   EXPECT_NEAR((a.cov - b.cov).cwiseAbs().maxCoeff(), 0, 1e-8);
 }
 
+inline void expectNear(const core::LaserScan& a, const core::LaserScan& b)
+{
+  EXPECT_NEAR(a.pose_robot_sensor.x, b.pose_robot_sensor.x, kFloat);
+  EXPECT_NEAR(a.pose_robot_sensor.y, b.pose_robot_sensor.y, kFloat);
+  // Where the first beam points: a rawlog turns the sensor to the middle of its field of view.
+  const double turn = a.pose_robot_sensor.phi + a.angleMin - b.pose_robot_sensor.phi - b.angleMin;
+  EXPECT_NEAR(math::wrapToPi(turn), 0, kFloat);
+  EXPECT_NEAR(a.angleStep, b.angleStep, kFloat);
+  EXPECT_NEAR(a.rangeMax, b.rangeMax, kFloat * a.rangeMax);
+  ASSERT_EQ(a.ranges.size(), b.ranges.size());
+  for (std::size_t i = 0; i < a.ranges.size(); ++i)
+  {
+    const bool isReturn = a.ranges[i] <= a.rangeMax;
+    ASSERT_EQ(isReturn, b.ranges[i] <= b.rangeMax) << i;
+    ASSERT_TRUE(!isReturn || a.ranges[i] == b.ranges[i]) << i;
+  }
+}
+
 inline void expectNear(const core::Step& a, const core::Step& b)
 {
   EXPECT_NEAR(a.time, b.time, kTick);
@@ -56,6 +74,8 @@ inline void expectNear(const core::Step& a, const core::Step& b)
   ASSERT_EQ(a.blobs.has_value(), b.blobs.has_value());
   if (a.landmarks) expectNear(*a.landmarks, *b.landmarks);
   if (a.blobs) expectNear(*a.blobs, *b.blobs);
+  ASSERT_EQ(a.lasers.size(), b.lasers.size());
+  for (std::size_t i = 0; i < a.lasers.size(); ++i) expectNear(*a.lasers[i], *b.lasers[i]);
 }
 
 // The number of steps, all alike.
@@ -77,6 +97,8 @@ inline void expectNear(const eval::Trajectory& a, const eval::Trajectory& b)
   for (std::size_t i = 0; i < a.poses.size(); ++i)
   {
     EXPECT_NEAR(a.poses[i].time, b.poses[i].time, 2e-9);
+    EXPECT_EQ(a.poses[i].headingKnown, b.poses[i].headingKnown);
+    if (!a.poses[i].headingKnown) continue;
     const Pose2D d = math::between(a.poses[i].pose, b.poses[i].pose);
     EXPECT_NEAR(std::abs(d.x) + std::abs(d.y) + std::abs(d.phi), 0, 1e-8);
   }
@@ -90,6 +112,14 @@ inline void expectNear(const eval::Truth& a, const eval::Truth& b)
   ASSERT_EQ(a.landmarks.size(), b.landmarks.size());
   for (const auto& [id, p] : a.landmarks)
     EXPECT_NEAR(std::hypot(p.x - b.landmarks.at(id).x, p.y - b.landmarks.at(id).y), 0, 1e-8);
+  ASSERT_EQ(a.relations.size(), b.relations.size());
+  for (std::size_t i = 0; i < a.relations.size(); ++i)
+  {
+    EXPECT_NEAR(a.relations[i].from, b.relations[i].from, 2e-9);
+    EXPECT_NEAR(a.relations[i].to, b.relations[i].to, 2e-9);
+    const Pose2D d = math::between(a.relations[i].pose_from_to, b.relations[i].pose_from_to);
+    EXPECT_NEAR(std::abs(d.x) + std::abs(d.y) + std::abs(d.phi), 0, 1e-8);
+  }
   ASSERT_EQ(a.associations.size(), b.associations.size());
   for (std::size_t i = 0; i < a.associations.size(); ++i)
   {

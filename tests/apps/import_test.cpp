@@ -1,10 +1,14 @@
+#include <slamot/importers/Carmen.h>
 #include <slamot/importers/CsvFolder.h>
 #include <slamot/importers/Mrclam.h>
+#include <slamot/importers/ScaledCars.h>
 #include <slamot/importers/VictoriaPark.h>
 #include <slamot/mrpt/RawlogSource.h>
 #include <slamot/results/TruthFiles.h>
 
+#include "../importers/CarmenData.h"
 #include "../importers/MrclamData.h"
+#include "../importers/ScaledCarsData.h"
 #include "../importers/VictoriaParkData.h"
 #include "../results/TemporaryFolder.h"
 #include "expectNear.h"
@@ -205,6 +209,123 @@ TEST(ImportCommand, VictoriaParkCutShortLeavesNothing)
   EXPECT_TRUE(std::filesystem::is_empty(folder.file("out")));
 }
 
+TEST(ImportCommand, CarmenReadsBackAsItWas)
+{
+  const TemporaryFolder folder;
+  folder.write("my.log", test::carmenLog() + "FOO 1\n" +
+                             test::newScan("ROBOTLASER2", " 0", {5, 8, 2}, {5, 8, 2}, 103));
+  test::packGz(folder, "my.log");
+  folder.write("my.relations", test::carmenRelations());
+  const auto outcome = test::slamot(
+      "import carmen my.log.gz -o a.rawlog --relations my.relations --laser-mount 0.1,0.2,3 "
+      "--rear-laser-mount -0.1,-0.2,170 --first-beam -60 --beam-step 2 --max-range 75 "
+      "--std-distance-driving 0.1 --std-heading-driving 3 --std-distance-turning 0.2 "
+      "--std-heading-turning 0.3 --std-slip 4",
+      folder.file(""));
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_EQ(outcome.text,
+            "slamot: warning: my.log.gz: 1 messages of unknown kind were left out, as 'FOO'\n"
+            "a.rawlog: 4 steps, 0 sightings in 0 scans, 0 blobs in 0 scans, 4 laser scans, 0 "
+            "dropped, 3.000 s; truth: a.truth\n");
+  importers::CarmenOptions o;
+  o.relations = folder.file("my.relations");
+  o.mount = Pose2D(0.1, 0.2, math::degToRad(3));
+  o.rearMount = Pose2D(-0.1, -0.2, math::degToRad(170));
+  o.firstBeam = math::degToRad(-60);
+  o.beamStep = math::degToRad(2);
+  o.maxRange = 75;
+  o.noise = {0.1, math::degToRad(4), 0.2, math::degToRad(3), 0.3};
+  EXPECT_EQ(expectSame(*importers::openCarmen(folder.file("my.log.gz"), o), folder), 4);
+}
+
+TEST(ImportCommand, CarmensRelationsAreEvaluated)
+{
+  const TemporaryFolder folder;
+  folder.write("my.log", test::carmenLog());
+  folder.write("my.relations", test::carmenRelations());
+  const auto run = [&](const std::string& arguments)
+  {
+    const auto outcome = test::slamot(arguments, folder.file(""));
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    return outcome.text;
+  };
+  run("import carmen my.log --relations my.relations -q -o a.rawlog");
+  const std::string text =
+      run("run '" SLAMOT_SOURCE_DIR "/config-ini/dead-reckoning.ini' a.rawlog -o out");
+  const std::string line =
+      "relations                 2 between its poses; mean errors 0.000 m, "
+      "0.0000 rad\n";
+  EXPECT_NE(text.find(line), std::string::npos) << text;
+  EXPECT_NE(run("evaluate out").find(line), std::string::npos);
+  EXPECT_NE(run("evaluate out --json").find("\"relations\": {\n    \"count\": 2,"),
+            std::string::npos);
+  EXPECT_NE(folder.read("out/summary.json").find("\"count\": 2,"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("out/grid.png")));
+}
+
+TEST(ImportCommand, CarmenCutShortLeavesNothing)
+{
+  const TemporaryFolder folder;
+  folder.write("my.log", test::carmenLog());
+  test::packGz(folder, "my.log");
+  const std::string whole = folder.read("my.log.gz");
+  folder.write("my.log.gz", whole.substr(0, whole.size() / 2));
+  const auto outcome = test::slamot("import carmen my.log.gz -o out/a.rawlog", folder.file(""));
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.text,
+            "slamot: error: my.log.gz: the compressed file ends early; copy it again\n");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.file("out")));
+}
+
+TEST(ImportCommand, ScaledCarsReadBackAsTheyWere)
+{
+  const TemporaryFolder folder;
+  test::writeCars(folder);
+  for (const char* name : {"scan.csv", "imu.csv", "ego_pose.csv"}) test::packGz(folder, name);
+  const auto outcome = test::slamot(
+      "import scaled-cars . -o a.rawlog --heading wheels --gyro-bias 1 --true-heading logged "
+      "--wheel-radius 0.04 --wheelbase 0.3 --track 0.2 --ahead -0.1 --laser-mount -0.2,0.1,2 "
+      "--laser-delay 0.1 --max-range 5 --std-distance 0.03 --std-distance-turning 0.04 "
+      "--std-heading 2 --std-heading-turning 0.05 --start origin",
+      folder.file(""));
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_EQ(outcome.text,
+            "a.rawlog: 13 steps, 0 sightings in 0 scans, 0 blobs in 0 scans, 13 laser scans, 2 "
+            "dropped (2 outside odometry's time), 3.000 s; truth: a.truth\n");
+  using Options = importers::ScaledCarsOptions;
+  Options o;
+  o.heading = Options::Heading::kWheels;
+  o.gyroBias = math::degToRad(1);
+  o.trueHeading = Options::TrueHeading::kLogged;
+  o.wheelRadius = 0.04;
+  o.wheelbase = 0.3;
+  o.track = 0.2;
+  o.ahead = -0.1;
+  o.mount = Pose2D(-0.2, 0.1, math::degToRad(2));
+  o.laserDelay = 0.1;
+  o.maxRange = 5;
+  o.wheels = {0.03, 0.04, math::degToRad(2), 0.05};
+  o.startFromTruth = false;
+  EXPECT_EQ(expectSame(*importers::openScaledCars(folder.file(""), o), folder), 13);
+}
+
+TEST(ImportCommand, ScaledCarsAreDrivenThroughTheirTruth)
+{
+  const TemporaryFolder folder;
+  test::writeCars(folder);
+  for (const char* arguments :
+       {"import scaled-cars . -q -o a.rawlog",
+        "run '" SLAMOT_SOURCE_DIR "/config-ini/dead-reckoning.ini' a.rawlog -q -o out"})
+  {
+    const auto outcome = test::slamot(arguments, folder.file(""));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+  }
+  const std::string text = test::slamot("evaluate out", folder.file("")).text;
+  EXPECT_NE(text.find("(align none)"), std::string::npos) << "the start is the truth's\n" << text;
+  EXPECT_NE(text.find("\nrobot                          13    0.00"), std::string::npos) << text;
+  EXPECT_NE(text.find("target 1"), std::string::npos) << text;
+}
+
 TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
 {
   const TemporaryFolder folder;
@@ -228,7 +349,8 @@ TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
   expect("csv nowhere -o a.rawlog", 2,
          "nowhere: is not a folder; give a folder with an odometry.csv");
   expect("xml drive -o a.rawlog", 1,
-         "command line: kind: xml not in {csv,mrclam,victoria-park}; see slamot --help");
+         "command line: kind: xml not in {csv,mrclam,victoria-park,carmen,scaled-cars}; see slamot "
+         "--help");
   expect("csv drive --robot 1 -o a.rawlog", 1,
          "command line: --robot is an option of mrclam; remove it");
   expect("mrclam drive --start-time 3 -o a.rawlog", 1,
@@ -237,6 +359,30 @@ TEST(ImportCommand, WhatIsWrongIsOneLineAndLeavesNothing)
          "command line: --std-bearing is an option of mrclam and victoria-park; remove it");
   expect("mrclam drive --robot 1 --laser-yaw 1 -o a.rawlog", 1,
          "command line: --laser-yaw is an option of victoria-park; remove it");
+  expect("csv drive --std-slip 1 -o a.rawlog", 1,
+         "command line: --std-slip is an option of victoria-park and carmen; remove it");
+  expect("victoria-park drive --std-heading-turning 1 -o a.rawlog", 1,
+         "command line: --std-heading-turning is an option of mrclam, carmen and scaled-cars; "
+         "remove it");
+  expect("mrclam drive --robot 1 --laser-mount 1,2,3 -o a.rawlog", 1,
+         "command line: --laser-mount is an option of carmen and scaled-cars; remove it");
+  expect("carmen drive --start origin -o a.rawlog", 1,
+         "command line: --start is an option of mrclam and scaled-cars; remove it");
+  expect("scaled-cars drive --relations x -o a.rawlog", 1,
+         "command line: --relations is an option of carmen; remove it");
+  expect("carmen x.log --heading imu -o a.rawlog", 1,
+         "command line: --heading is an option of scaled-cars; remove it");
+  expect("victoria-park drive --max-range 90 -o a.rawlog", 1,
+         "--max-range: the laser reaches from 1 to 80 m; give 2 to 80");
+  expect("carmen drive -o a.rawlog", 2, "drive: is a folder; give a text file");
+  expect("carmen nowhere.log -o a.rawlog", 2,
+         "nowhere.log: can't be read: No such file or directory; check the name and the rights");
+  folder.write("drive/a.log", "FLASER 2 1 nan 0 0 0 0 0 0 1 host 0\n");
+  expect("carmen drive/a.log -o a.rawlog", 4,
+         "drive/a.log line 1: field 4: 'nan' makes no sense; values must be finite and below 1e10");
+  expect("scaled-cars drive -o a.rawlog", 2,
+         "drive/wheel_speeds.csv: neither this nor its .gz is there; give the folder of one run of "
+         "the scaled cars");
   expect("victoria-park drive --robot 1 -o a.rawlog", 1,
          "command line: --robot is an option of mrclam; remove it");
   expect("victoria-park drive -o a.rawlog", 2,

@@ -191,10 +191,11 @@ TEST(Record, SaysWhatIsNoResultFolder)
 TEST(Summary, HasExactlyTheKeysOfTheInterface)
 {
   const auto json = summaryOf(smallRecord(), {});
-  EXPECT_EQ(keysOf(json), (std::vector<std::string>{
-                              "association", "complete", "dataset", "landmarks", "method",
-                              "mrpt_version", "observations", "particles", "rigid", "robot", "seed",
-                              "slamot_version", "steps", "target_set", "targets", "timing"}));
+  EXPECT_EQ(keysOf(json),
+            (std::vector<std::string>{"association", "complete", "dataset", "landmarks", "method",
+                                      "mrpt_version", "observations", "particles", "relations",
+                                      "rigid", "robot", "seed", "slamot_version", "steps",
+                                      "target_set", "targets", "timing"}));
   EXPECT_EQ(keysOf(json["timing"]),
             (std::vector<std::string>{"cpu_s", "peak_rss_mb", "step_median_us", "step_p99_us",
                                       "wall_s"}));
@@ -223,6 +224,7 @@ TEST(Summary, IsNullWhereThereIsNoTruth)
   EXPECT_TRUE(json["landmarks"]["gospa_m"].is_null());
   EXPECT_TRUE(json["landmarks"]["ospa_m"].is_null());
   EXPECT_TRUE(json["rigid"].is_null());
+  EXPECT_TRUE(json["relations"].is_null());
   EXPECT_TRUE(json["target_set"].is_null());
   EXPECT_EQ(json["landmarks"]["mapped"], 1);
   EXPECT_EQ(json["particles"]["ess_min"], 4.5);
@@ -246,6 +248,25 @@ TEST(Summary, HasTheErrorsOfTheEvaluation)
   EXPECT_NEAR(json["rigid"]["robot"]["position_rmse_m"].get<double>(), 0, 1e-9);
   EXPECT_NEAR(json["rigid"]["landmarks"]["rmse_m"].get<double>(), 0, 1e-9);
   EXPECT_EQ(json["association"]["new"], 1);
+}
+
+TEST(Summary, HasTheErrorsOverRelations)
+{
+  eval::Truth truth;
+  const eval::Record record = smallRecord();
+  const eval::RobotRow &first = record.rows.front(), &last = record.rows.back();
+  const Pose2D moved = math::between(first.robot.mean, last.robot.mean);
+  truth.relations = {{first.time, last.time, math::compose(moved, Pose2D(0.3, 0.4, 0.2))}};
+  auto json = summaryOf(record, truth)["relations"];
+  EXPECT_EQ(keysOf(json), (std::vector<std::string>{"count", "rotation_mean_error_rad",
+                                                    "translation_mean_error_m"}));
+  EXPECT_EQ(json["count"], 1);
+  EXPECT_NEAR(json["translation_mean_error_m"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(json["rotation_mean_error_rad"].get<double>(), 0.2, 1e-9);
+  truth.relations = {{-9, -8, {}}};
+  json = summaryOf(record, truth)["relations"];
+  EXPECT_EQ(json["count"], 0);
+  EXPECT_TRUE(json["translation_mean_error_m"].is_null());
 }
 
 TEST(Results, DoNotDependOnTheLocale)

@@ -16,6 +16,7 @@ eval::Truth someTruth()
   truth.targets[7].poses = {{0.5, {4, 5, 0}, false}};
   truth.landmarks = {{0, {1.125, -2}}, {12, {3, 4}}};
   truth.associations = {{0.5, 0, 12}, {0.5, 2, -1}, {1, 0, 0}};
+  truth.relations = {{1, 0.5, {1.25, -3, 3}}, {1, 1.5, {0, 0, -0.5}}};
   return truth;
 }
 
@@ -41,6 +42,9 @@ TEST(TruthFiles, ComeBackAsTheyWereWritten)
   ASSERT_EQ(b.associations.size(), 3u);
   EXPECT_EQ(b.associations[1].index, 2);
   EXPECT_EQ(b.associations[1].id, -1);
+  ASSERT_EQ(b.relations.size(), 2u);
+  EXPECT_EQ(b.relations[0].to, 0.5);
+  EXPECT_EQ(b.relations[0].pose_from_to, Pose2D(1.25, -3, 3));
 }
 
 TEST(TruthFiles, SavingAgainLeavesNothingOfTheOldTruthAndAllThatIsNotTruth)
@@ -56,6 +60,7 @@ TEST(TruthFiles, SavingAgainLeavesNothingOfTheOldTruthAndAllThatIsNotTruth)
   EXPECT_TRUE(b.targets.empty());
   EXPECT_TRUE(b.landmarks.empty());
   EXPECT_TRUE(b.associations.empty());
+  EXPECT_TRUE(b.relations.empty());
   EXPECT_EQ(folder.read("X.truth/notes.txt"), "mine");
 }
 
@@ -91,6 +96,8 @@ TEST(TruthFiles, NameTheLineOfWhatIsWrong)
   expect("landmarks.csv", "id,x,y\n1,,3\n", "line 2: x '' is no finite number");
   expect("associations.csv", "t,index,id\n1,0,3\n1,0,4\n", "line 3: is not after");
   expect("associations.csv", "t,index,id\n1,0,-2\n", "line 2: a negative index, or an id below -1");
+  expect("relations.csv", "t1,t2\n", "relations.csv line 1: the header is not");
+  expect("relations.csv", "t1,t2,dx,dy,dtheta\n1,2,0,nan,0\n", "line 2: dy 'nan' is no finite");
   expect("target_3.tum", "1 2 3\n", "target_3.tum line 1: has 3 fields");
 }
 }  // namespace

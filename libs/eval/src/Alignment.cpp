@@ -103,7 +103,13 @@ std::optional<Pose2D> alignment(const std::vector<RunWithTruth>& runs, Align ali
 std::vector<Evaluation> evaluateTogether(const std::vector<RunWithTruth>& runs,
                                          EvaluationOptions options)
 {
-  if (options.leverArm != Point2D()) return evaluateAtPoint(runs, options);
+  if (options.leverArm != Point2D())
+  {
+    auto atPoint = evaluateAtPoint(runs, options);
+    for (std::size_t i = 0; i < runs.size(); ++i)  // relations are of the robot itself
+      atPoint[i].relations = evaluateRelations(*runs[i].record, runs[i].truth->relations);
+    return atPoint;
+  }
   const auto truthFromMap = alignment(runs, options.align, options.maxTruthGap);
   const auto rigid = alignment(runs, Align::kRigid, options.maxTruthGap);
   if (!truthFromMap) options.align = Align::kNone;

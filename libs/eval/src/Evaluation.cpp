@@ -35,13 +35,6 @@ RigidEvaluation evaluateRigid(const Record& record, const Truth& truth,
   return out;
 }
 
-Trajectory pathOf(const Record& record)
-{
-  Trajectory out;
-  for (const RobotRow& row : record.rows) out.poses.push_back({row.time, row.robot.mean, true});
-  return out;
-}
-
 /// True targets that no track stands for, where no track has taken their id.
 void addMissed(Evaluation& evaluation)
 {
@@ -62,7 +55,7 @@ Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOp
     EvaluationOptions there = options;
     there.leverArm = {};
     Evaluation out = evaluate(ofPoint(record, options.leverArm), truth, there, truthFromMap, rigid);
-    out.relations = evaluateRelations(pathOf(record), truth.relations);  // of the robot itself
+    out.relations = evaluateRelations(record, truth.relations);  // of the robot itself
     return out;
   }
   Evaluation out;
@@ -75,7 +68,7 @@ Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOp
   out.targetSet = evaluateTargetSet(record, truth, options, truthFromMap);
   out.landmarks = evaluateLandmarks(record, truth, options, truthFromMap);
   out.association = countAssociations(record, truth);
-  out.relations = evaluateRelations(pathOf(record), truth.relations);
+  out.relations = evaluateRelations(record, truth.relations);
   if (rigid) out.rigid = evaluateRigid(record, truth, options, {truthFromMap, *rigid});
   return out;
 }

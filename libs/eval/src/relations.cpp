@@ -45,4 +45,13 @@ std::optional<RelationErrors> evaluateRelations(const Trajectory& path,
   out.rotationMean = rotation / out.count;
   return out;
 }
+
+std::optional<RelationErrors> evaluateRelations(const Record& record,
+                                                const std::vector<Relation>& relations)
+{
+  if (relations.empty()) return std::nullopt;
+  Trajectory path;
+  for (const RobotRow& row : record.rows) path.poses.push_back({row.time, row.robot.mean, true});
+  return evaluateRelations(path, relations);
+}
 }  // namespace slamot::eval

@@ -168,6 +168,9 @@ struct EvaluationOptions
 /// squared.
 [[nodiscard]] std::optional<RelationErrors> evaluateRelations(
     const Trajectory& path, const std::vector<Relation>& relations, double tolerance = 5e-4);
+/// The same of a run's poses.
+[[nodiscard]] std::optional<RelationErrors> evaluateRelations(
+    const Record& record, const std::vector<Relation>& relations);
 
 /// Errors and consistency of a run.  What has no truth is absent; nothing is ever NaN.  Where the
 /// truth does not allow the alignment asked for, none is made, and the result's `align` says so.
