@@ -259,6 +259,9 @@ TEST(CarmenFaults, AreNamed)
 {
   constexpr auto kBad = ExitStatus::kUnreadable;
   constexpr auto kNonsense = ExitStatus::kNonsense;
+  std::string still;
+  for (int i = 0; i < 101; ++i) still += oldScan("FLASER", {1}, {0, 0, 0}, 7);
+  expectFault(still, kNonsense, {"a.log", "over 100 scans", "7.000000 s"});
   expectFault("", kBad, {"a.log", "holds no FLASER"});
   expectFault(
       "\x7f"

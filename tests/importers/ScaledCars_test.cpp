@@ -236,6 +236,8 @@ TEST(ScaledCarsFaults, OfScansAndTruthAreNamed)
   expectFault(file, carScanHeader() + carScan(10.5, std::nan("")), kNonsense, {"column r0"});
   expectFault(file, carScanHeader() + carScan(10.5, 1) + carScan(10.4, 1), kNonsense,
               {"line 3", "backwards"});
+  expectFault(file, carScanHeader() + carScan(10.5, 1) + carScan(10.5, 1), kNonsense,
+              {"line 3", "two scans"});
   file = "ego_pose.csv";
   expectFault(file, kPoseHeader + "10,1,nan,0,0,0,0\n", kNonsense, {file + " line 2", "column y"});
   expectFault(file, kPoseHeader + "10,1,1,0,0,0,0\n9,1,1,0,0,0,0\n", kNonsense, {"backwards"});

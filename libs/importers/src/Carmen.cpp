@@ -15,6 +15,15 @@ using carmen::Message;
 
 constexpr double kJump = 5, kFastest = 10;  // [m], [m/s]: together, of an odometer that was reset
 
+constexpr std::size_t kMostAtOnce = 100;  // scans of a clock that stands still
+
+std::string timeText(double time)
+{
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6f s", time);
+  return text;
+}
+
 class Carmen : public Import
 {
  public:
@@ -40,7 +49,7 @@ class Carmen : public Import
     step.time = message.time;
     if (last_) step.odometry = motion(*last_, message);
     for (next_ = message; next_ && next_->time == step.time; next_ = scans_.next())
-      if (next_->scan) step.lasers.push_back(next_->scan);
+      if (next_->scan) add(step, next_->scan);
     last_ = message;
     if (!truth_.relations.empty()) drive_.poses.push_back({step.time, {}, true});
     if (!next_) finish();
@@ -52,14 +61,21 @@ class Carmen : public Import
   [[nodiscard]] const eval::Truth& truth() const override { return truth_; }
 
  private:
+  void add(core::Step& step, const std::shared_ptr<const core::LaserScan>& scan) const
+  {
+    if (step.lasers.size() == kMostAtOnce)
+      throw core::Error(core::ExitStatus::kNonsense, path_,
+                        "over 100 scans are of one time, " + timeText(step.time),
+                        "mend the times, the last field but two of each line");
+    step.lasers.push_back(scan);
+  }
+
   Gaussian<Pose2D> motion(const Message& from, const Message& to)
   {
     const Pose2D moved = math::between(from.odometry, to.odometry);
     const double distance = std::hypot(moved.x, moved.y);
     if (distance > kJump && distance > kFastest * (to.time - from.time))
-    {
-      if (jumps_++ == 0) firstJump_ = to.time;
-    }
+      firstJump_ = jumps_++ == 0 ? to.time : firstJump_;
     return options_.noise.of(moved);
   }
 
@@ -75,10 +91,8 @@ class Carmen : public Import
     for (const std::string& kind : scans_.log().unknownKinds())
       kinds += (kinds.empty() ? "" : ", ") + kind;
     warn(scans_.log().unknown(), "messages of unknown kind were left out, as " + kinds);
-    char time[64];
-    std::snprintf(time, sizeof time, "%.6f s", firstJump_);
     warn(jumps_, "steps of odometry are over 5 m and faster than 10 m/s, the first at " +
-                     std::string(time));
+                     timeText(firstJump_));
     if (truth_.relations.empty()) return;
     if (eval::evaluateRelations(drive_, truth_.relations)->count == 0)
       warn(truth_.relations.size(), "relations are all of times at which there is no scan");

@@ -54,7 +54,7 @@ class ScaledCars : public Import
       time_ = step.time;
       noteTruth();
     }
-    while (scans_.time() && *scans_.time() == time_) step.lasers.push_back(scans_.take());
+    step.lasers.push_back(scans_.take());
     return deliver(std::move(step));
   }
 

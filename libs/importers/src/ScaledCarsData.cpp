@@ -141,7 +141,10 @@ void LaserScans::advance()
 {
   time_.reset();
   if (!table_.next()) return;
-  logged_ = nextTime(table_, logged_);
+  const auto last = logged_;
+  logged_ = nextTime(table_, last);
+  if (logged_ == last)
+    table_.failAt(0, ExitStatus::kNonsense, "two scans are of one time", "remove one row");
   time_ = *logged_ - options_->laserDelay;
 }
 
