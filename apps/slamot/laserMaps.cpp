@@ -20,6 +20,7 @@ void saveLaserMaps(const std::string& folder, const eval::Record& record)
   if (scans.empty()) return;
   const std::filesystem::path place(folder);
   mrpt::saveSimpleMap((place / "map.simplemap").string(), scans);
-  mrpt::saveGridPicture((place / "grid.png").string(), scans);
+  mrpt::savePoints((place / "points.txt").string(), scans);
+  mrpt::saveGrid((place / "grid.png").string(), (place / "map.gridmap").string(), scans);
 }
 }  // namespace slamot::apps

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/serialization/CArchive.h>
 #include <slamot/core/Error.h>
 #include <slamot/mrpt/LaserMaps.h>
 
@@ -71,7 +75,7 @@ TEST(GridPicture, IsDarkAtTheWallsAndBrightBetween)
 {
   const tests::TemporaryFolder folder;
   const std::string path = folder.file("grid.png");
-  saveGridPicture(path, twoScans());
+  saveGrid(path, folder.file("map.gridmap"), twoScans());
   ::mrpt::img::CImage image;
   ASSERT_TRUE(image.loadFromFile(path));
   // The room and a margin of 1 m: 6 m of 0.05 m.
@@ -94,7 +98,7 @@ TEST(GridPicture, HasXToTheRightAndYUp)
   wall->ranges.assign(21, 3.0F);
   PosedScans s;
   s.scans = {wall};
-  saveGridPicture(path, {s});
+  saveGrid(path, folder.file("map.gridmap"), {s});
   ::mrpt::img::CImage image;
   ASSERT_TRUE(image.loadFromFile(path));
   std::size_t dark = 0, darkAbove = 0;
@@ -105,9 +109,39 @@ TEST(GridPicture, HasXToTheRightAndYUp)
   EXPECT_EQ(dark, darkAbove);
 }
 
+TEST(Grid, IsReadByMrpt)
+{
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("map.gridmap");
+  saveGrid(folder.file("grid.png"), path, twoScans());
+  ::mrpt::io::CFileGZInputStream file(path);
+  auto archive = ::mrpt::serialization::archiveFrom(file);
+  ::mrpt::maps::COccupancyGridMap2D grid;
+  archive >> grid;
+  EXPECT_GT(grid.getPos(5, 3), 0.6F);     // where the robot is, it is free
+  EXPECT_LT(grid.getPos(7, 3.2F), 0.4F);  // the wall
+}
+
+TEST(Points, AreTheReturnsInTheMap)
+{
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("points.txt");
+  savePoints(path, twoScans());
+  ::mrpt::maps::CSimplePointsMap points;
+  ASSERT_TRUE(points.load2D_from_text_file(path));
+  EXPECT_EQ(points.size(), 2u * 721);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    float x = 0, y = 0;
+    points.getPoint(i, x, y);
+    EXPECT_NEAR(std::max(std::abs(x - 5), std::abs(y - 3)), 2, 0.01);
+  }
+}
+
 TEST(LaserMaps, SayWhereTheyCantBeWritten)
 {
-  EXPECT_THROW(saveGridPicture("/no/such/folder/grid.png", twoScans()), core::Error);
+  EXPECT_THROW(saveGrid("/no/such/folder/grid.png", "/no/such/folder/map.gridmap", twoScans()),
+               core::Error);
   EXPECT_THROW(saveSimpleMap("/no/such/folder/map.simplemap", twoScans()), core::Error);
 }
 }  // namespace slamot::mrpt

@@ -56,6 +56,7 @@ Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOp
     there.leverArm = {};
     Evaluation out = evaluate(ofPoint(record, options.leverArm), truth, there, truthFromMap, rigid);
     out.relations = evaluateRelations(record, truth.relations);  // of the robot itself
+    out.scanMap = scanMapQuality(record);
     return out;
   }
   Evaluation out;
@@ -69,6 +70,7 @@ Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOp
   out.landmarks = evaluateLandmarks(record, truth, options, truthFromMap);
   out.association = countAssociations(record, truth);
   out.relations = evaluateRelations(record, truth.relations);
+  out.scanMap = scanMapQuality(record);
   if (rigid) out.rigid = evaluateRigid(record, truth, options, {truthFromMap, *rigid});
   return out;
 }

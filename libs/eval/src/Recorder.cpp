@@ -1,4 +1,5 @@
 #include <slamot/eval/Recorder.h>
+#include <slamot/eval/ScanMap.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,6 +147,12 @@ void Recorder::addLasers(const core::Step& step)
     if (std::hypot(moved.x, moved.y) < kLaserDistance && std::abs(moved.phi) < kLaserTurn) return;
   }
   for (const auto& scan : step.lasers) record_.lasers.push_back({row, scan});
+}
+
+Record Recorder::takeRecord()
+{
+  record_.lasers = withoutTargets(record_);
+  return std::move(record_);
 }
 
 void Recorder::finish(bool complete)

@@ -1,12 +1,15 @@
 #include "saveWhole.h"
 #include "toObservations.h"
 
+#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3D.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
+#include <mrpt/serialization/CArchive.h>
 #include <slamot/mrpt/LaserMaps.h>
 
 #include <algorithm>
@@ -42,7 +45,9 @@ std::vector<::mrpt::obs::CObservation::Ptr> observationsOf(const PosedScans& s)
   return toObservations(step);
 }
 
-void addReturns(Box& box, const Pose2D& sensor, const core::LaserScan& scan)
+/// f(return, in the frame that the sensor's pose is given in), as far as walls can be drawn.
+template <class F>
+void forReturns(const Pose2D& sensor, const core::LaserScan& scan, F&& f)
 {
   const double farthest = std::min(scan.rangeMax, kFarthest);
   for (std::size_t i = 0; i < scan.ranges.size(); ++i)
@@ -50,7 +55,7 @@ void addReturns(Box& box, const Pose2D& sensor, const core::LaserScan& scan)
     const double r = scan.ranges[i];
     if (!(r > 0 && r < farthest)) continue;
     const double a = scan.angleMin + static_cast<double>(i) * scan.angleStep;
-    box.add(math::transform(sensor, {r * std::cos(a), r * std::sin(a)}));
+    f(math::transform(sensor, {r * std::cos(a), r * std::sin(a)}));
   }
 }
 
@@ -61,7 +66,8 @@ Box boxOf(const std::vector<PosedScans>& all)
   {
     box.add({s.robot.mean.x, s.robot.mean.y});
     for (const auto& scan : s.scans)
-      addReturns(box, math::compose(s.robot.mean, scan->pose_robot_sensor), *scan);
+      forReturns(math::compose(s.robot.mean, scan->pose_robot_sensor), *scan,
+                 [&](const Point2D& p) { box.add(p); });
   }
   return {box.xMin - kMargin, box.xMax + kMargin, box.yMin - kMargin, box.yMax + kMargin};
 }
@@ -84,7 +90,19 @@ void saveSimpleMap(const std::string& path, const std::vector<PosedScans>& scans
   saveWhole(path, [&](const std::string& file) { return map.saveToFile(file); });
 }
 
-void saveGridPicture(const std::string& path, const std::vector<PosedScans>& scans)
+void savePoints(const std::string& path, const std::vector<PosedScans>& scans)
+{
+  ::mrpt::maps::CSimplePointsMap points;
+  for (const PosedScans& s : scans)
+    for (const auto& scan : s.scans)
+      forReturns(math::compose(s.robot.mean, scan->pose_robot_sensor), *scan,
+                 [&](const Point2D& p)
+                 { points.insertPoint(static_cast<float>(p.x), static_cast<float>(p.y)); });
+  saveWhole(path, [&](const std::string& file) { return points.save2D_to_text_file(file); });
+}
+
+void saveGrid(const std::string& picturePath, const std::string& gridPath,
+              const std::vector<PosedScans>& scans)
 {
   const Box box = boxOf(scans);
   const double area = (box.xMax - box.xMin) * (box.yMax - box.yMin);
@@ -97,6 +115,14 @@ void saveGridPicture(const std::string& path, const std::vector<PosedScans>& sca
   for (const PosedScans& s : scans)
     for (const auto& o : observationsOf(s))
       grid.insertObservation(*o, ::mrpt::poses::CPose3D(s.robot.mean));
-  saveWhole(path, [&](const std::string& file) { return grid.saveAsBitmapFile(file); });
+  saveWhole(picturePath, [&](const std::string& file) { return grid.saveAsBitmapFile(file); });
+  saveWhole(gridPath,
+            [&](const std::string& file)
+            {
+              ::mrpt::io::CFileGZOutputStream out;
+              if (!out.open(file)) return false;
+              ::mrpt::serialization::archiveFrom(out) << grid;
+              return true;
+            });
 }
 }  // namespace slamot::mrpt

@@ -53,6 +53,16 @@ void addErrors(HtmlPage& page, const RunView& run)
       page.figure("Errors of " + groups[g].name + how, *figure);
 }
 
+void addScans(HtmlPage& page, const RunView& run)
+{
+  if (const auto scans = scanFigure(run, eval::PosesOf::kFilter))
+    page.figure(
+        "Where the laser's returns lie by the filter's poses, without those of tracked targets.",
+        *scans);
+  if (const auto scans = scanFigure(run, eval::PosesOf::kOdometry))
+    page.figure("The same by odometry alone.", *scans);
+}
+
 void addPlots(HtmlPage& page, const RunView& run)
 {
   page.heading("Map and paths");
@@ -60,6 +70,7 @@ void addPlots(HtmlPage& page, const RunView& run)
       "The map frame from above, one metre as long on both axes. Arrow heads mark the last "
       "poses; dashed lines are true paths.",
       mapFigure(run));
+  addScans(page, run);
   const auto nees = neesFigure(run);
   if (nees) page.heading("Errors");
   addErrors(page, run);

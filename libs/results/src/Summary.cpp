@@ -102,7 +102,8 @@ std::string summaryJson(const RunInfo& info, const eval::Record& record,
                {"particles", particlesJson(record)},
                {"target_set", targetSetJson(evaluation.targetSet)},
                {"rigid", rigidJson(evaluation.rigid)},
-               {"relations", relationsJson(evaluation.relations)}});
+               {"relations", relationsJson(evaluation.relations)},
+               {"scan_map", scanMapJson(evaluation.scanMap)}});
 }
 
 std::string evaluationJson(const eval::Record& record, const eval::Evaluation& evaluation)

@@ -85,6 +85,14 @@ Json relationsJson(const std::optional<eval::RelationErrors>& r)
           {"rotation_mean_error_rad", orNull(r->rotationMean)}};
 }
 
+Json scanMapJson(const std::optional<eval::ScanMapQuality>& s)
+{
+  if (!s) return nullptr;
+  return {{"points", s->points},
+          {"mean_map_entropy", orNull(s->entropy)},
+          {"odometry_mean_map_entropy", orNull(s->odometryEntropy)}};
+}
+
 Json rigidJson(const std::optional<eval::RigidEvaluation>& r)
 {
   if (!r) return nullptr;

@@ -22,5 +22,6 @@ Json orNull(const std::optional<T>& value)
 [[nodiscard]] Json targetSetJson(const std::optional<eval::TargetSetErrors>& t);
 [[nodiscard]] Json associationJson(const std::optional<eval::AssociationCounts>& a);
 [[nodiscard]] Json relationsJson(const std::optional<eval::RelationErrors>& r);
+[[nodiscard]] Json scanMapJson(const std::optional<eval::ScanMapQuality>& s);
 [[nodiscard]] Json rigidJson(const std::optional<eval::RigidEvaluation>& r);
 }  // namespace slamot::results

@@ -54,6 +54,8 @@ std::string styleOf(const Series& s)
       return "using 1:2 with lines lw 1.3 dt (5,3)" + colour;
     case Series::Kind::kDots:
       return "using 1:2 with points pt 7 ps 0.45" + colour;
+    case Series::Kind::kPoints:
+      return "using 1:2 with points pt 7 ps 0.12" + colour;
     case Series::Kind::kCrosses:
       return "using 1:2 with points pt 1 ps 0.8 lw 1.5" + colour;
     case Series::Kind::kErrorBars:

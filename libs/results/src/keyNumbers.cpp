@@ -68,6 +68,14 @@ void addAssociationFacts(Table& table, const eval::AssociationCounts& a)
        std::to_string(a.created) + " new, " + std::to_string(a.rejected) + " rejected"});
 }
 
+void addScanMapFacts(Table& table, const std::optional<eval::ScanMapQuality>& s)
+{
+  if (!s || !s->entropy) return;
+  table.rows.push_back({"scan map, mean entropy (less is sharper)", fixed(*s->entropy, 3)});
+  if (s->odometryEntropy)
+    table.rows.push_back({"the same of odometry alone", fixed(*s->odometryEntropy, 3)});
+}
+
 void addParticleFacts(Table& table, const eval::Record& record)
 {
   if (record.particles == 0) return;
@@ -126,6 +134,7 @@ Table factTable(const RunView& run)
     addTargetFact(table, run.record, group);
   addMapFacts(table, run.evaluation.landmarks);
   if (run.evaluation.association) addAssociationFacts(table, *run.evaluation.association);
+  addScanMapFacts(table, run.evaluation.scanMap);
   addParticleFacts(table, run.record);
   const auto& rows = run.record.rows;
   table.rows.push_back(

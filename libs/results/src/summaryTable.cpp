@@ -132,6 +132,14 @@ std::string relationsLine(const std::optional<eval::RelationErrors>& r)
   return line + "\n";
 }
 
+std::string scanMapLine(const std::optional<eval::ScanMapQuality>& s)
+{
+  if (!s || !s->entropy) return {};
+  std::string line = left("scan map") + "mean entropy " + fixed(*s->entropy, 3);
+  if (s->odometryEntropy) line += "; of odometry alone " + fixed(*s->odometryEntropy, 3);
+  return line + " (less is sharper)\n";
+}
+
 std::string percentOf(const char* what, const std::optional<double>& share)
 {
   return share ? std::string("; ") + what + " " + fixed(100 * *share, 1) + "%" : "";
@@ -168,7 +176,7 @@ std::string summaryTable(const eval::Record& record, const eval::Evaluation& e, 
   if (e.robot.all.coverage95 && e.robot.all.neesSkipped > 0)
     text += left("") + "NEES leaves out " + std::to_string(e.robot.all.neesSkipped) +
             " of the robot's steps, where its covariance is singular, as at an exact start\n";
-  text += relationsLine(e.relations);
+  text += relationsLine(e.relations) + scanMapLine(e.scanMap);
   if (detailed) text += targetSetLines(e.targetSet);
   text += landmarkLine("landmarks", e.landmarks);
   if (detailed) text += landmarkDetail(e.landmarks);

@@ -172,6 +172,7 @@ Series thinned(const Series& s, const PixelScale& scale)
     case Series::Kind::kBand:
       return s.x.size() > kManyPoints ? thinnedBand(s, scale) : s;
     case Series::Kind::kDots:
+    case Series::Kind::kPoints:
     case Series::Kind::kCrosses:
     case Series::Kind::kTicks:
       return thinnedMarks(s, scale);

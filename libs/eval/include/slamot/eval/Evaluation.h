@@ -2,6 +2,7 @@
 
 #include <slamot/eval/Gospa.h>
 #include <slamot/eval/Record.h>
+#include <slamot/eval/ScanMap.h>
 #include <slamot/eval/Truth.h>
 
 namespace slamot::eval
@@ -147,6 +148,7 @@ struct Evaluation
   std::optional<AssociationCounts> association;  ///< none: the filter pairs nothing
   std::optional<RigidEvaluation> rigid;          ///< none without the robot's truth
   std::optional<RelationErrors> relations;       ///< none: truth has none
+  std::optional<ScanMapQuality> scanMap;         ///< none: the record has no scans
 };
 
 struct EvaluationOptions

@@ -26,7 +26,8 @@ class Recorder : public core::Sink
 
   /// Whole once the run has finished.
   [[nodiscard]] const Record& record() const { return record_; }
-  [[nodiscard]] Record takeRecord() { return std::move(record_); }
+  /// The scans without what moved: see withoutTargets().
+  [[nodiscard]] Record takeRecord();
 
  private:
   void addRow(double time, const core::Estimate& estimate);

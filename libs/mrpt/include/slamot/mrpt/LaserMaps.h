@@ -21,8 +21,13 @@ struct PosedScans
 /// \throws core::Error (kUnreadable) if the file can't be written.
 void saveSimpleMap(const std::string& path, const std::vector<PosedScans>& scans);
 
+/// Their returns as points in map axes, `x y` lines [m] that MRPT's CSimplePointsMap and others
+/// load. \throws as above.
+void savePoints(const std::string& path, const std::vector<PosedScans>& scans);
+
 /// Draws them as an occupancy grid, dark where something stands: 0.05 m a pixel, coarser where that
-/// would make more than four million.  \throws core::Error (kUnreadable) if the file can't be
-/// written.
-void saveGridPicture(const std::string& path, const std::vector<PosedScans>& scans);
+/// would make more than four million; and saves the grid itself (`gridPath`, MRPT's gz .gridmap,
+/// which its tools load).  \throws as above.
+void saveGrid(const std::string& picturePath, const std::string& gridPath,
+              const std::vector<PosedScans>& scans);
 }  // namespace slamot::mrpt

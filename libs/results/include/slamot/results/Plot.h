@@ -34,6 +34,7 @@ struct Series
     kThin,       ///< a line that stays behind the others
     kDashes,     ///< a broken line
     kDots,       ///< small filled circles
+    kPoints,     ///< the smallest marks, of clouds
     kCrosses,    ///< upright crosses
     kErrorBars,  ///< line, points and bars from low to high
     kBand,       ///< the area between low and high
