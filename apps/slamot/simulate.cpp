@@ -8,6 +8,7 @@
 
 #include "Command.h"
 #include "TeamLogs.h"
+#include "pictureObservation.h"
 #include "rawlogOutput.h"
 
 namespace slamot::apps
@@ -21,7 +22,7 @@ struct SimulateOptions
 {
   CommonOptions common;
   std::string scenario;
-  std::string format = "frames";
+  std::string format = "frames", images = "inside";
 };
 
 // sim.<name>.ini goes to slamot-out/<name>.rawlog.
@@ -51,27 +52,36 @@ mrpt::RawlogWriter openLog(const std::string& path, const sim::World& world,
 
 struct Tally
 {
-  std::size_t steps = 0, scans = 0;
+  std::size_t steps = 0, scans = 0, images = 0;
 };
 
 /// All steps of a world; none if interrupted.
-std::optional<Tally> writeSteps(sim::World& world, mrpt::RawlogWriter& writer)
+std::optional<Tally> writeSteps(sim::World& world, mrpt::RawlogWriter& writer,
+                                const sim::Scenario& scenario, const std::string& path,
+                                const SimulateOptions& o)
 {
+  const ImagesGo where = o.images == "inside" ? ImagesGo::kInside : ImagesGo::kBeside;
   Tally out;
   while (const auto step = world.next())
   {
     if (interrupted) return std::nullopt;
-    writer.write(*step);
+    std::vector<std::shared_ptr<::mrpt::obs::CObservation>> pictures;
+    if (const auto picture = world.picture())
+      pictures.push_back(pictureObservation(*picture, *scenario.camera, step->time, path, where));
+    writer.write(*step, pictures);
     ++out.steps;
-    if (step->landmarks) ++out.scans;
+    out.images += pictures.size();
+    if (step->landmarks || !step->lasers.empty()) ++out.scans;
   }
   return out;
 }
 
 void report(const std::string& path, const Tally& tally, const eval::Truth& truth)
 {
-  std::printf("%s: %s, %s, %s, %s; truth in %s\n", path.c_str(), count(tally.steps, "step").c_str(),
-              count(tally.scans, "scan").c_str(), count(truth.landmarks.size(), "landmark").c_str(),
+  const std::string images = tally.images > 0 ? ", " + count(tally.images, "image") : "";
+  std::printf("%s: %s, %s%s, %s, %s; truth in %s\n", path.c_str(),
+              count(tally.steps, "step").c_str(), count(tally.scans, "scan").c_str(),
+              images.c_str(), count(truth.landmarks.size(), "landmark").c_str(),
               count(truth.targets.size(), "target").c_str(), results::truthFolder(path).c_str());
 }
 
@@ -84,7 +94,7 @@ ExitStatus simulateOne(const sim::Scenario& scenario, const std::string& output,
   sim::World world(scenario, o.common.seed, kRaw);
   const std::string path = rawlogOutput(output);
   mrpt::RawlogWriter writer = openLog(path, world, o);
-  const auto tally = writeSteps(world, writer);
+  const auto tally = writeSteps(world, writer, scenario, path, o);
   if (!tally) return ExitStatus::kInterrupted;
   results::saveTruth(results::truthFolder(path), world.truth());
   writer.close();
@@ -101,7 +111,7 @@ ExitStatus simulateTeam(const sim::Scenario& scenario, const std::string& output
   {
     sim::World world(scenario, o.common.seed, kRaw, robot);
     mrpt::RawlogWriter writer = openLog(logs.partOf(robot), world, o);
-    const auto tally = writeSteps(world, writer);
+    const auto tally = writeSteps(world, writer, scenario, logs.pathOf(robot), o);
     if (!tally) return ExitStatus::kInterrupted;
     writer.close();
     logs.add(robot, world.truth());
@@ -143,6 +153,10 @@ void addSimulate(CLI::App& app, int& status)
       ->add_option("--format", options->format,
                    "frames: pairs of action and sensory frame; observations: observations only")
       ->check(CLI::IsMember({"frames", "observations"}));
+  command
+      ->add_option("--images", options->images,
+                   "inside: the log holds them; beside: as files in X_Images")
+      ->check(CLI::IsMember({"inside", "beside"}));
   command->callback([options, &status] { status = simulate(*options); });
 }
 }  // namespace slamot::apps

@@ -3,6 +3,7 @@
 #include <slamot/mrpt/RawlogSource.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "cameraLog.h"
 #include "program.h"
@@ -213,6 +214,34 @@ TEST_F(SlamotDetect, AnyFlippedByteEndsInOneLineOrInALog)
       EXPECT_NE(o.text.find("slamot: error: "), std::string::npos) << o.text;
     }
   }
+}
+
+// From raw data to estimates: images and scans alone, of the shipped scenario.
+TEST_F(SlamotDetect, TheSimulatedPioneersAreTrackedFromImagesAndScans)
+{
+  const std::string configs = "'" SLAMOT_SOURCE_DIR "/config-ini/";
+  ASSERT_EQ(slamot("simulate " + configs +
+                       "sim.pioneers.ini' -o in.rawlog --set world.steps=120 --images beside",
+                   folder_.string())
+                .status,
+            0);
+  EXPECT_TRUE(fs::is_directory(path("in_Images")));
+  ASSERT_EQ(detect().status, 0);
+  fs::copy(path("in.truth"), path("out.truth"));
+  const Outcome run =
+      slamot("run " + configs + "slamot.ini' out.rawlog -o result", folder_.string());
+  ASSERT_EQ(run.status, 0) << run.text;
+  std::ifstream file(path("result/summary.json"));
+  const auto summary = nlohmann::json::parse(file);
+  EXPECT_LT(summary["robot"]["position_rmse_m"], 0.1);
+  ASSERT_EQ(summary["targets"].size(), 1u);
+  EXPECT_LT(summary["targets"][0]["position_rmse_m"], 0.2);
+  EXPECT_GT(summary["targets"][0]["tracked_fraction"], 0.9);
+  EXPECT_GT(summary["landmarks"]["mapped"], 5);
+  EXPECT_LT(summary["scan_map"]["mean_map_entropy"],
+            summary["scan_map"]["odometry_mean_map_entropy"]);
+  for (const char* name : {"grid.png", "map.gridmap", "points.txt", "map.simplemap"})
+    EXPECT_TRUE(fs::exists(path(std::string("result/") + name))) << name;
 }
 
 TEST_F(SlamotDetect, ProposesAColour)

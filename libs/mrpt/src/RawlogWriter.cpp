@@ -32,8 +32,9 @@ struct RawlogWriter::Impl
     file.write(memory.getRawBufferData(), memory.getTotalBytesCount());
   }
   void writeComment(const std::string& text);
-  void writePair(const core::Step& step);
-  void writeObservations(const core::Step& step);
+  using Observations = std::vector<std::shared_ptr<::mrpt::obs::CObservation>>;
+  void writePair(const core::Step& step, const Observations& more);
+  void writeObservations(const core::Step& step, const Observations& more);
   void writeOdometry(double time, std::optional<::mrpt::math::TTwist2D> velocity);
   void check(const core::Step& step) const;
 
@@ -54,7 +55,7 @@ void RawlogWriter::Impl::writeComment(const std::string& text)
   write(comment);
 }
 
-void RawlogWriter::Impl::writePair(const core::Step& step)
+void RawlogWriter::Impl::writePair(const core::Step& step, const Observations& more)
 {
   ::mrpt::obs::CActionCollection actions;
   const auto dt = lastTime ? std::optional<double>(step.time - *lastTime) : std::nullopt;
@@ -65,6 +66,7 @@ void RawlogWriter::Impl::writePair(const core::Step& step)
   }
   ::mrpt::obs::CSensoryFrame frame;
   for (const auto& observation : toObservations(step)) frame.insert(observation);
+  for (const auto& observation : more) frame.insert(observation);
   if (!step.odometry && frame.empty())
   {
     // Nothing else would keep the step's time.
@@ -87,7 +89,7 @@ void RawlogWriter::Impl::writeOdometry(double time, std::optional<::mrpt::math::
   write(odometry);
 }
 
-void RawlogWriter::Impl::writeObservations(const core::Step& step)
+void RawlogWriter::Impl::writeObservations(const core::Step& step, const Observations& more)
 {
   if (step.odometry)
   {
@@ -100,6 +102,7 @@ void RawlogWriter::Impl::writeObservations(const core::Step& step)
                   dt > 0 ? std::optional(meanVelocity(step.odometry->mean, dt)) : std::nullopt);
   }
   for (const auto& observation : toObservations(step)) write(*observation);
+  for (const auto& observation : more) write(*observation);
 }
 
 void RawlogWriter::Impl::check(const core::Step& step) const
@@ -118,13 +121,14 @@ RawlogWriter::RawlogWriter(const std::string& path, Format format, const core::S
 
 RawlogWriter::~RawlogWriter() = default;
 
-void RawlogWriter::write(const core::Step& step)
+void RawlogWriter::write(const core::Step& step,
+                         const std::vector<std::shared_ptr<::mrpt::obs::CObservation>>& more)
 {
   impl_->check(step);
   if (impl_->format == Format::kActionFrames)
-    impl_->writePair(step);
+    impl_->writePair(step, more);
   else
-    impl_->writeObservations(step);
+    impl_->writeObservations(step, more);
   impl_->lastTime = step.time;
 }
 

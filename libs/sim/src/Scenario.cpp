@@ -59,6 +59,7 @@ std::map<int, TargetSetup> readTargets(core::Config& config, const Area& area, d
     checkAcceleration(p, target.motion, dt);
     target.start = readStartKnowledge(p, target.motion);
     target.label = p.text("label", target.label);
+    target.look = Look::from(p, target.look);
     target.present = readPresence(p);
     if (!out.emplace(*id, target).second)
       throw core::Error(core::ExitStatus::kConfig, config.name() + " [" + section + "]",
@@ -67,6 +68,25 @@ std::map<int, TargetSetup> readTargets(core::Config& config, const Area& area, d
   return out;
 }
 
+std::vector<Wall> readWalls(core::Params& p)
+{
+  std::vector<Wall> out;
+  if (!p.has("walls_m")) return out;
+  const auto numbers = p.numbers("walls_m");
+  if (numbers.size() % 4 != 0)
+    p.fail("walls_m", "is not four numbers a wall", "write x1, y1, x2, y2, ...");
+  for (std::size_t i = 0; i < numbers.size(); i += 4)
+    out.push_back({{numbers[i], numbers[i + 1]}, {numbers[i + 2], numbers[i + 3]}});
+  return out;
+}
+
+template <class Setup>
+std::optional<Setup> readRaw(core::Config& config, const std::string& section)
+{
+  if (!config.has(section)) return std::nullopt;
+  core::Params p(config, section);
+  return Setup::from(p);
+}
 }  // namespace
 
 StartKnowledge readStartKnowledge(core::Params& p, const Motion& motion)
@@ -106,6 +126,10 @@ Scenario Scenario::from(core::Config& config)
   s.landmarks = readLandmarks(world, s.robots);
   s.landmarkSensor = readLandmarkSensor(config);
   s.mateSensor = readMateSensor(config);
+  s.sightings = world.flag("sightings", true);
+  s.walls = readWalls(world);
+  s.laser = readRaw<LaserSetup>(config, "laser");
+  s.camera = readRaw<CameraSetup>(config, "camera");
   s.targetSensor = readTargetSensor(config, !s.targets.empty() || s.mateSensor);
   return s;
 }

@@ -3,6 +3,7 @@
 
 #include "Bodies.h"
 #include "Sensor.h"
+#include "Surroundings.h"
 #include "starts.h"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ struct World::Impl
   void scanTargets(core::Step& out) const;
   void scanMates(core::Step& out) const;
   void scanBlobs(core::Step& out) const;
+  [[nodiscard]] Surroundings surroundings() const;
   void recordPoses();
 
   Scenario scenario;
@@ -121,6 +123,18 @@ void World::Impl::scanBlobs(core::Step& out) const
   if (scenario.mateSensor) scanMates(out);
 }
 
+Surroundings World::Impl::surroundings() const
+{
+  Surroundings out;
+  out.add(scenario.walls);
+  for (const auto& [_, at] : truth.landmarks) out.add(at, scenario.landmarks.look);
+  for (const auto& [id, pose] : bodies.presentTargets())
+    out.add({pose.x, pose.y}, scenario.targets.at(id).look);
+  for (const auto& [mate, at] : bodies.matesOf(robot))
+    out.add(at, scenario.robots[static_cast<std::size_t>(mate)].look);
+  return out;
+}
+
 World::World(const Scenario& scenario, std::uint64_t seed, Sightings sightings, int robot)
 {
   if (robot < 0 || robot >= static_cast<int>(scenario.robots.size()))
@@ -138,12 +152,27 @@ std::optional<core::Step> World::next()
   out.odometry = w.bodies.move()[std::size_t(w.robot)];
   out.time = w.time();
   w.recordPoses();
-  if (w.bodies.step() % w.scenario.scanEvery == 0)
+  const auto step = static_cast<std::uint64_t>(w.bodies.step());
+  if (w.scenario.laser && w.bodies.step() % w.scenario.laser->every == 0)
+    out.lasers.push_back(std::make_shared<core::LaserScan>(
+        castScan(w.surroundings(), w.bodies.robot(w.robot), *w.scenario.laser,
+                 stream(w.seed, Purpose::kLaser, step, robotKey(w.robot)))));
+  if (w.scenario.sightings && w.bodies.step() % w.scenario.scanEvery == 0)
   {
     w.scanLandmarks(out);
     w.scanBlobs(out);
   }
   return out;
+}
+
+std::optional<Picture> World::picture() const
+{
+  const Impl& w = *impl_;
+  const int step = w.bodies.step();
+  if (!w.scenario.camera || step == 0 || step % w.scenario.camera->every != 0) return std::nullopt;
+  return drawPicture(
+      w.surroundings(), w.bodies.robot(w.robot), *w.scenario.camera, w.bodies.elapsed(),
+      stream(w.seed, Purpose::kCamera, static_cast<std::uint64_t>(step), robotKey(w.robot)));
 }
 
 double World::progress() const

@@ -48,6 +48,7 @@ LandmarkSetup readLandmarks(core::Params& p, const std::vector<RobotSetup>& robo
   readPlacement(p, out, robots);
   readClusters(p, out);
   readPositions(p, out);
+  out.look = Look::from(p, out.look, "landmark_");
   return out;
 }
 }  // namespace slamot::sim

@@ -59,6 +59,7 @@ RobotSetup readRobot(core::Config& config, const std::string& section, const Are
   if (r.motion.kind == Motion::Kind::kAccelerated)
     p.fail("motion", "accelerated is for targets", "set it to one that wheels can drive");
   r.start = readStartKnowledge(p, r.motion);
+  r.look = Look::from(p, r.look);
   readFollowing(p, r, targets);
   if (r.motion.startAt == Motion::StartAt::kNearTarget && targets.empty())
     p.fail("start", "near_target, but there is none", "add [target]");

@@ -19,7 +19,9 @@ enum class Purpose : std::uint64_t
   kTargetClutter,
   kMateSensing,
   kMateClutter,
-  kBoundStart
+  kBoundStart,
+  kLaser,
+  kCamera
 };
 
 /// A robot's place among the objects, and what it adds to those it senses and knows of.  Targets

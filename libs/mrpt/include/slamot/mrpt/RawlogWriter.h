@@ -5,6 +5,12 @@
 
 #include <memory>
 #include <string>
+#include <vector>
+
+namespace mrpt::obs
+{
+class CObservation;
+}
 
 namespace slamot::mrpt
 {
@@ -23,7 +29,9 @@ class RawlogWriter
   /// Without close(), nothing is left at `path`.
   ~RawlogWriter();
 
-  void write(const core::Step& step);
+  /// \param more of the same instant, behind the step's own: what a step does not hold.
+  void write(const core::Step& step,
+             const std::vector<std::shared_ptr<::mrpt::obs::CObservation>>& more = {});
   /// Completes the file and puts it in its place.
   void close();
 

@@ -2,6 +2,7 @@
 
 #include <slamot/core/Step.h>
 #include <slamot/sim/Motion.h>
+#include <slamot/sim/RawSensors.h>
 
 #include <array>
 #include <map>
@@ -30,6 +31,7 @@ struct RobotSetup
   double followDistance = 1;    ///< keeps this far from that point [m]
   double followGain = 2;        ///< speed by distance [1/s]
   double followSpeedRatio = 1;  ///< its top speed by the target's
+  Look look{0.2, 0.4, 355, 0.85, 0.8};  ///< to the others' lasers and cameras
 };
 
 struct TargetSetup
@@ -37,6 +39,7 @@ struct TargetSetup
   Motion motion;
   StartKnowledge start;
   std::string label = "target";
+  Look look{0.2, 0.5, 25, 0.9, 0.85};  ///< to lasers and cameras
   /// Spans [from, until) in which it is there [s from the log's start]; empty: always.
   std::vector<std::pair<double, double>> present;
 
@@ -66,11 +69,13 @@ struct LandmarkSetup
   int clusterSize = 1;              ///< so many stand together
   double clusterSpacing = 1;        ///< from a member of a cluster to the nearest other one [m]
   double spacing = 0;  ///< smallest distance between two of them, or of different clusters [m]
+  Look look{0.1, 1.2, 60, 0.1, 0.35};  ///< to lasers and cameras: posts
 };
 
 /// A world to simulate.  Sections [world]; [robot], or [robot_0], [robot_1], ... for a team;
 /// [target] or [target_<id>]; [landmark_sensor]; [target_sensor], which a world without targets and
-/// mates may leave out; and [mate_sensor] if robots see one another.
+/// mates may leave out; [mate_sensor] if robots see one another; [laser] and [camera], if there are
+/// such.
 /// config-ini/sim.experiment1.ini comments every key.
 struct Scenario
 {
@@ -85,6 +90,10 @@ struct Scenario
   SensorSetup landmarkSensor;               ///< of every robot, as the others
   std::optional<SensorSetup> targetSensor;  ///< absent: nothing looks for blobs
   std::optional<SensorSetup> mateSensor;    ///< for the other robots; absent: not seen
+  bool sightings = true;  ///< whether these three report; false: laser and camera alone
+  std::vector<Wall> walls;
+  std::optional<LaserSetup> laser;    ///< of every robot
+  std::optional<CameraSetup> camera;  ///< likewise
 
   /// Reads the sections; config.requireAllRead() then finds what nobody knows.
   /// \throws core::Error (kConfig).

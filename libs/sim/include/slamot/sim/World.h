@@ -29,6 +29,8 @@ class World : public core::Source
   ~World() override;
 
   std::optional<core::Step> next() override;
+  /// What the robot's camera saw at the last step; none without one, or where it looked elsewhen.
+  [[nodiscard]] std::optional<Picture> picture() const;
   [[nodiscard]] double progress() const override;
 
   /// What a filter may know of the starts, in the map frame.
