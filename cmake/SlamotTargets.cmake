@@ -53,6 +53,21 @@ function(slamot_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
+# slamot_module(NAME SOURCES a.cpp ... [DEPENDS targets ...]): what the program loads only when it is asked
+# for, since its libraries take long to load. Made in build/modules/, headers in include/ are the program's.
+function(slamot_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  set(target slamot-${name})
+  add_library(${target} MODULE ${ARG_SOURCES})
+  target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
+  target_link_libraries(${target} PRIVATE ${ARG_DEPENDS} slamot_private)
+  target_compile_options(${target} PRIVATE ${seldom})
+  set_target_properties(${target} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${slamot_modules}
+    INSTALL_RPATH "$ORIGIN/..")
+  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/slamot)
+endfunction()
+set(slamot_modules ${PROJECT_BINARY_DIR}/modules)
+
 # slamot_test(NAME SOURCES a_test.cpp ... [DEPENDS targets ...]): one test program, run by CTest.
 function(slamot_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})

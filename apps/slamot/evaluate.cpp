@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "Command.h"
+#include "savedRun.h"
 
 namespace slamot::apps
 {
@@ -30,31 +31,16 @@ struct EvaluateCommand
   eval::EvaluationOptions options;
 };
 
-bool isEmpty(const eval::Truth& t)
+eval::Truth truthOf(const std::string& result, const std::string& prefix)
 {
-  return t.robot.empty() && t.targets.empty() && t.landmarks.empty() && t.associations.empty() &&
-         t.relations.empty();
-}
-
-// PREFIX may be the folder of truth, the log it goes with, or one trajectory of the robot.
-eval::Truth findTruth(const std::string& result, std::string prefix)
-{
-  if (prefix.empty())
-    if (const auto summary = results::loadSummary(result)) prefix = summary->dataset;
-  if (prefix.empty())
+  auto truth = findTruth(result, prefix);
+  if (!truth)
     throw Error(ExitStatus::kConfig, "evaluate " + result, "which truth it goes with is not known",
                 "give --truth PREFIX");
-  eval::Truth truth;
-  if (fs::is_regular_file(prefix) && fs::path(prefix).extension() == ".tum")
-    truth.robot = results::loadTum(prefix);
-  else if (fs::is_directory(prefix))
-    truth = results::loadTruth(prefix);
-  else
-    truth = results::loadTruth(results::truthFolder(prefix));
-  if (isEmpty(truth))
-    throw Error(ExitStatus::kUnreadable, prefix, "there is no truth",
-                "give --truth the path of X.truth or X.rawlog");
-  return truth;
+  if (!isEmpty(*truth)) return std::move(*truth);
+  const auto summary = results::loadSummary(result);
+  throw Error(ExitStatus::kUnreadable, prefix.empty() && summary ? summary->dataset : prefix,
+              "there is no truth", "give --truth the path of X.truth or X.rawlog");
 }
 
 // A file named target_<id>.tum is held against that target, in the robot's place.
@@ -71,14 +57,8 @@ void takeTargetForRobot(const std::string& file, eval::Truth& truth)
 eval::EvaluationOptions optionsOf(const EvaluateCommand& o)
 {
   eval::EvaluationOptions out = o.options;
-  out.align = eval::Align::kFirstPose;
-  if (const fs::path config = fs::path(o.result) / "config.ini"; fs::exists(config))
-  {
-    core::Config ini = core::Config::load(config.string());
-    out.align = *eval::alignNamed(
-        core::Params(ini, "run").choice("align", eval::alignNames(), "first-pose"));
-    out.leverArm = results::readLeverArm(ini);
-  }
+  const eval::EvaluationOptions saved = savedOptions(o.result);
+  out.align = saved.align, out.leverArm = saved.leverArm;
   if (!o.align.empty()) out.align = *eval::alignNamed(o.align);
   if (!o.leverArm.empty()) out.leverArm = {o.leverArm[0], o.leverArm[1]};
   return out;
@@ -108,7 +88,7 @@ int evaluateTeam(EvaluateCommand o, const std::vector<std::string>& names)
   {
     const std::string folder = (fs::path(o.result) / name).string();
     records.push_back(results::loadRecord(folder));
-    truths.push_back(findTruth(folder, o.truth));
+    truths.push_back(truthOf(folder, o.truth));
   }
   o.options = optionsOf(o);
   std::vector<eval::RunWithTruth> runs;
@@ -135,7 +115,7 @@ int evaluate(EvaluateCommand o)
     return evaluateTeam(std::move(o), names);
   const eval::Record record =
       isFolder ? results::loadRecord(o.result) : results::loadTumRecord(o.result);
-  eval::Truth truth = findTruth(o.result, o.truth);
+  eval::Truth truth = truthOf(o.result, o.truth);
   if (!isFolder) takeTargetForRobot(o.result, truth);
   o.options = optionsOf(o);
   const eval::Evaluation evaluation = eval::evaluate(record, truth, o.options);

@@ -9,4 +9,11 @@ namespace slamot::apps
 /// \param particles the filter's at the end, if it has any.
 [[nodiscard]] mrpt::SceneData sceneOf(const std::string& title, const results::RunView& run,
                                       std::vector<core::WeightedPose> particles);
+
+/// What is known of paths, targets and truth up to a row of the record: no map, no scans.
+[[nodiscard]] mrpt::SceneData sceneUntil(const std::string& title, const results::RunView& run,
+                                         std::size_t lastRow);
+
+/// Appends the points that a scan saw, in the map's frame.
+void appendPoints(std::vector<Point2D>& points, const core::LaserScan& scan, const Pose2D& robot);
 }  // namespace slamot::apps

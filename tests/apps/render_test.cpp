@@ -38,8 +38,10 @@ TEST(SlamotRender, NamesWhatIsWrong)
   mrpt::saveScene(folder.file("a.3Dscene"), sampleScene());
   const auto video = slamot("render a.3Dscene -o a.xyz", folder.file(""));
   EXPECT_EQ(video.status, 1);
-  EXPECT_EQ(video.text,
-            "slamot: error: command line --output a.xyz: not a picture's name; end it in .png\n");
+  EXPECT_EQ(
+      video.text,
+      "slamot: error: command line --output a.xyz: is the name of neither a picture nor a video; "
+      "end it in .png or .mp4\n");
   const auto absent = slamot("render nothing -o a.png", folder.file(""));
   EXPECT_EQ(absent.status, 2);
   EXPECT_EQ(absent.text,

@@ -53,6 +53,32 @@ std::string read(const std::string& path)
 }
 }  // namespace
 
+TEST(LoadScans, GivesBackWhatWasSaved)
+{
+  const tests::TemporaryFolder folder;
+  saveSimpleMap(folder.file("a.simplemap"), twoScans());
+  const std::vector<PosedScans> read = loadScans(folder.file("a.simplemap"));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_DOUBLE_EQ(read[1].time, 11);
+  ASSERT_EQ(read[1].scans.size(), 1u);
+  EXPECT_EQ(read[1].scans[0]->ranges, room()->ranges);
+  EXPECT_NEAR(read[1].scans[0]->angleMin, -math::kPi, 1e-6);
+}
+
+TEST(LoadScans, NamesTheFaultOfWhateverIsCut)
+{
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("a.simplemap"), cut = folder.file("cut.simplemap");
+  saveSimpleMap(path, twoScans());
+  const std::string whole = read(path);
+  for (std::size_t size = 1; size < whole.size(); size += 97)
+  {
+    std::ofstream(cut, std::ios::binary) << whole.substr(0, size);
+    EXPECT_THROW((void)loadScans(cut), core::Error) << size << " bytes";
+  }
+  EXPECT_THROW((void)loadScans(folder.file("none")), core::Error);
+}
+
 TEST(SimpleMap, HoldsScansAndPoses)
 {
   const tests::TemporaryFolder folder;

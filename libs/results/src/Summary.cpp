@@ -136,6 +136,7 @@ std::optional<SavedSummary> loadSummary(const std::string& folder)
   {
     const Json json = Json::parse(file);
     SavedSummary out;
+    out.method = json.at("method").get<std::string>();
     out.dataset = json.at("dataset").get<std::string>();
     out.hasMap = !json.at("landmarks").at("mapped").is_null();
     out.complete = json.at("complete").get<bool>();

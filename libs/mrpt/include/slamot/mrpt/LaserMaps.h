@@ -25,6 +25,11 @@ void saveSimpleMap(const std::string& path, const std::vector<PosedScans>& scans
 /// load. \throws as above.
 void savePoints(const std::string& path, const std::vector<PosedScans>& scans);
 
+/// Reads the scans of such a file back, each with its time; poses are left out.  What is damaged
+/// or malicious costs no more than its size.
+/// \throws core::Error (kUnreadable, kTruncated, kNonsense, kLimit).
+[[nodiscard]] std::vector<PosedScans> loadScans(const std::string& path);
+
 /// Draws them as an occupancy grid, dark where something stands: 0.05 m a pixel, coarser where that
 /// would make more than four million; and saves the grid itself (`gridPath`, MRPT's gz .gridmap,
 /// which its tools load).  \throws as above.

@@ -43,9 +43,12 @@ struct SceneData
   std::vector<core::LandmarkEstimate> landmarks;
   std::vector<Point2D> trueLandmarks;
   std::vector<Point2D> laserPoints;
+  std::vector<Point2D> scanPoints;            ///< of the latest laser scans alone
+  std::vector<Polyline> sightings;            ///< from the robot to what it sees
   std::vector<core::WeightedPose> particles;  ///< at the end
   std::vector<SceneMember> team;              ///< of a team: in place of robot and targets
   double fusionScale = 1;  ///< the ellipses of fusions are drawn so many times as large
+  bool ofMoments = false;  ///< moments of it are drawn, with the map and particles of its end
 };
 
 /// Writes a .3Dscene for SceneViewer3D: paths as ribbons, landmarks as posts on their 95% ellipses,
@@ -53,10 +56,21 @@ struct SceneData
 /// The file is written whole or not at all.  \throws core::Error (kUnreadable) if it can't be.
 void saveScene(const std::string& path, const SceneData& data);
 
+/// The places of the particles that saveScene() put into a file; none if it holds none or can't be
+/// read.
+[[nodiscard]] std::vector<Point2D> loadParticles(const std::string& scenePath);
+
+enum class View
+{
+  kPlan,   ///< the whole map
+  kFollow  ///< from behind the robot
+};
+
 /// How to look at a scene.
 struct RenderOptions
 {
-  bool fromAbove = false;          ///< else from the side, in perspective
+  View view = View::kPlan;
+  bool fromAbove = false;          ///< a plan without perspective; else from the side
   int width = 1280, height = 960;  ///< [px]
 };
 

@@ -40,7 +40,7 @@ struct RunInfo
 /// What later use needs of a folder's summary.json.
 struct SavedSummary
 {
-  std::string dataset;
+  std::string method, dataset;
   bool hasMap = false, complete = false;
   std::size_t observations = 0;
   int particles = 0;

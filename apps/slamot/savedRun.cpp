@@ -1,0 +1,107 @@
+#include "savedRun.h"
+
+#include <slamot/core/Error.h>
+#include <slamot/core/Params.h>
+#include <slamot/eval/Alignment.h>
+#include <slamot/mrpt/LaserMaps.h>
+#include <slamot/results/RecordFiles.h>
+#include <slamot/results/Report.h>
+#include <slamot/results/RunPlan.h>
+#include <slamot/results/TruthFiles.h>
+#include <slamot/team/savedTeam.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace slamot::apps
+{
+namespace
+{
+namespace fs = std::filesystem;
+using core::Error;
+using core::ExitStatus;
+
+std::string titleOf(const std::string& folder)
+{
+  const auto summary = results::loadSummary(folder);
+  if (!summary) return fs::path(folder).lexically_normal().filename().string();
+  results::RunInfo info;
+  info.method = summary->method, info.dataset = summary->dataset;
+  return results::titleOf(info) + (summary->complete ? "" : ", incomplete");
+}
+
+/// Scans belong to the row of their time; files hold tenths of microseconds.
+void addLasers(const std::string& map, eval::Record& record)
+{
+  constexpr double kSameTime = 1e-6;
+  for (const mrpt::PosedScans& s : mrpt::loadScans(map))
+  {
+    const auto at = std::lower_bound(record.rows.begin(), record.rows.end(), s.time - kSameTime,
+                                     [](const auto& row, double t) { return row.time < t; });
+    if (at == record.rows.end() || at->time > s.time + kSameTime) continue;
+    const auto row = static_cast<std::size_t>(at - record.rows.begin());
+    for (const auto& scan : s.scans) record.lasers.push_back({row, scan});
+  }
+}
+}  // namespace
+
+bool isEmpty(const eval::Truth& t)
+{
+  return t.robot.empty() && t.targets.empty() && t.landmarks.empty() && t.associations.empty() &&
+         t.relations.empty();
+}
+
+std::optional<eval::Truth> findTruth(const std::string& result, std::string prefix)
+{
+  if (prefix.empty())
+    if (const auto summary = results::loadSummary(result)) prefix = summary->dataset;
+  if (prefix.empty()) return std::nullopt;
+  if (fs::is_directory(prefix)) return results::loadTruth(prefix);
+  if (!fs::is_regular_file(prefix) || fs::path(prefix).extension() != ".tum")
+    return results::loadTruth(results::truthFolder(prefix));
+  eval::Truth truth;
+  truth.robot = results::loadTum(prefix);
+  return truth;
+}
+
+eval::EvaluationOptions savedOptions(const std::string& folder)
+{
+  eval::EvaluationOptions out;
+  out.align = eval::Align::kFirstPose;
+  const fs::path config = fs::path(folder) / "config.ini";
+  if (!fs::exists(config)) return out;
+  core::Config ini = core::Config::load(config.string());
+  out.align =
+      *eval::alignNamed(core::Params(ini, "run").choice("align", eval::alignNames(), "first-pose"));
+  out.leverArm = results::readLeverArm(ini);
+  return out;
+}
+
+SavedRun loadSavedRun(const std::string& folder, const std::string& truth)
+{
+  if (!fs::is_directory(folder))
+    throw Error(
+        ExitStatus::kUnreadable, folder,
+        fs::exists(folder) ? "is one moment of a run, and no result folder" : "is not there",
+        "give the folder that slamot run wrote");
+  if (const auto names = team::robotsIn(folder); !names.empty())
+    throw Error(ExitStatus::kConfig, folder, "is of a team",
+                "give the folder of one robot, such as " + (fs::path(folder) / names[0]).string());
+  SavedRun run;
+  run.title = titleOf(folder);
+  run.record = results::loadRecord(folder);
+  if (run.record.rows.empty())
+    throw Error(ExitStatus::kTruncated, folder, "holds no step of a run", "run the filter anew");
+  if (auto found = findTruth(folder, truth)) run.truth = std::move(*found);
+  if (!truth.empty() && isEmpty(run.truth))
+    throw Error(ExitStatus::kUnreadable, truth, "there is no truth",
+                "give --truth the path of X.truth or X.rawlog");
+  run.evaluation = eval::evaluate(run.record, run.truth, savedOptions(folder));
+  const fs::path place(folder);
+  if (fs::exists(place / "map.simplemap"))
+    addLasers((place / "map.simplemap").string(), run.record);
+  for (const Point2D& p : mrpt::loadParticles((place / "scene.3Dscene").string()))
+    run.particles.push_back({{p.x, p.y, 0}, 1});
+  return run;
+}
+}  // namespace slamot::apps

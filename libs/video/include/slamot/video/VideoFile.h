@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace slamot::video
+{
+/// An mp4 in the making.  It is in its place once finish() has returned; without that, nothing is.
+class VideoFile
+{
+ public:
+  virtual ~VideoFile() = default;
+  /// \param bgr rows of blue, green, red bytes, from the top, `stride` bytes apart.
+  virtual void add(const unsigned char* bgr, std::size_t stride) = 0;
+  /// \throws core::Error (kUnreadable) if it could not be written whole.
+  virtual void finish() = 0;
+};
+
+struct VideoFormat
+{
+  int width = 0, height = 0;  ///< [px], even
+  double fps = 25;            ///< frames a second
+};
+
+/// The module's one function, by the name kOpenVideo.
+/// \throws core::Error (kUnreadable) if there can be no such file.
+using OpenVideo = std::unique_ptr<VideoFile>(const std::string& path, const VideoFormat& format);
+inline constexpr const char* kOpenVideo = "slamotOpenVideo";
+}  // namespace slamot::video
