@@ -1,5 +1,7 @@
 #include "Story.h"
 
+#include <slamot/mrpt/scanPoints.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -71,7 +73,7 @@ void Story::collectLaserPoints()
   for (const eval::LaserRow& laser : run_.record.lasers)
   {
     std::vector<Point2D> seen;
-    appendPoints(seen, *laser.scan, rows[laser.row].robot.mean);
+    mrpt::appendPoints(seen, *laser.scan, rows[laser.row].robot.mean);
     for (const Point2D& p : seen)
       if (filled.emplace(std::lround(p.x / cell), std::lround(p.y / cell)).second)
         points_.push_back({laser.row, p}), whole_.laserPoints.push_back(p);
@@ -126,7 +128,7 @@ std::vector<Point2D> Story::scanAt(std::size_t row) const
   std::vector<Point2D> points;
   for (auto it = after; it != lasers.begin() && (it - 1)->row == (after - 1)->row; --it)
     if (timeOf((it - 1)->row) > timeOf(row) - kShown)
-      appendPoints(points, *(it - 1)->scan, run_.record.rows[(it - 1)->row].robot.mean);
+      mrpt::appendPoints(points, *(it - 1)->scan, run_.record.rows[(it - 1)->row].robot.mean);
   return points;
 }
 

@@ -11,14 +11,18 @@
 #include <slamot/results/TruthFiles.h>
 #include <slamot/results/hints.h>
 #include <slamot/team/teamResults.h>
+#include <slamot/window/LiveView.h>
 
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <thread>
 
 #include "Command.h"
 #include "Progress.h"
 #include "laserMaps.h"
+#include "modules.h"
 #include "salvage.h"
 #include "sceneOf.h"
 
@@ -35,7 +39,7 @@ struct RunCommand
 {
   CommonOptions common;
   std::string config, dataset, align;
-  bool salvage = false;
+  bool salvage = false, view = false;
 };
 
 core::Config readConfig(const RunCommand& o)
@@ -96,6 +100,7 @@ class Run
         filter_(makeFilter(config_, plan_, number(), o.common.threads, truth_))
   {
     results::requirePlaceFor(folder_);
+    if (o.view) view_ = openView();
   }
 
   ExitStatus execute()
@@ -103,14 +108,15 @@ class Run
     fusion::WithoutMates source(source_, mateLabel_);
     results::StepTimer timer(source);
     eval::Recorder recorder(*filter_, {true});
+    std::vector<core::Sink*> sinks = {&timer, &recorder};
+    if (view_) sinks.push_back(view_.get());
     std::exception_ptr failure;
     bool wasInterrupted = false;
     try
     {
       Progress progress("steps", o_.common.quiet);
       const auto show = [&](std::size_t n, double share) { progress.update(n, share); };
-      wasInterrupted =
-          core::run(timer, *filter_, {&timer, &recorder}, {&interrupted, show}).interrupted;
+      wasInterrupted = core::run(timer, *filter_, sinks, {&interrupted, show}).interrupted;
     }
     catch (...)
     {
@@ -120,6 +126,7 @@ class Run
     record.complete = record.complete && source_.truncation().empty();
     if (!record.steps.empty()) write(record, timer.timing());
     if (failure) std::rethrow_exception(failure);
+    stayInView();
     return conclude(record, wasInterrupted);
   }
 
@@ -129,6 +136,22 @@ class Run
     mrpt::RawlogSource::Options options = mrpt::RawlogSource::Options::from(config_);
     options.salvage = o_.salvage;
     return options;
+  }
+
+  [[nodiscard]] std::unique_ptr<window::LiveView> openView() const
+  {
+    auto& open = *moduleFunction<window::OpenLiveView>("slamot-window", window::kOpenLiveView);
+    results::RunInfo info;
+    info.method = plan_.method, info.dataset = o_.dataset;
+    return open(results::titleOf(info), *filter_);
+  }
+  /// Results are written; the end stays to be looked at.
+  void stayInView()
+  {
+    if (view_ && view_->isOpen() && !interrupted && !o_.common.quiet)
+      std::fprintf(stderr, "close the window, or press Ctrl-C, to end\n");
+    while (view_ && view_->isOpen() && !interrupted)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 
   // With a section [team] this is one robot of a team, alone: as slamot team with one log.
@@ -186,6 +209,7 @@ class Run
   eval::Truth truth_;
   std::string mateLabel_;  // of blobs that the filter is not to see; empty: it sees all
   std::unique_ptr<core::Filter> filter_;
+  std::unique_ptr<window::LiveView> view_;  // none: not asked for
 };
 }  // namespace
 
@@ -207,6 +231,7 @@ void addRun(CLI::App& app, int& status)
       ->add_option("dataset", o->dataset, "The log; truth in X.truth/, if any, is for the summary")
       ->required()
       ->type_name("X.rawlog");
+  command->add_flag("--view", o->view, "Show the run in a window as it goes on; needs a display");
   command->add_flag("--salvage", o->salvage, "Use the intact first part of a truncated log");
   command
       ->add_option("--align", o->align,

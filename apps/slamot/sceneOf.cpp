@@ -1,5 +1,7 @@
 #include "sceneOf.h"
 
+#include <slamot/mrpt/scanPoints.h>
+
 #include <cmath>
 #include <limits>
 
@@ -81,18 +83,6 @@ void addTargets(mrpt::SceneData& scene, const Part& part)
 
 }  // namespace
 
-void appendPoints(std::vector<Point2D>& points, const core::LaserScan& scan, const Pose2D& robot)
-{
-  const Pose2D sensor = math::compose(robot, scan.pose_robot_sensor);
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
-  {
-    const double range = scan.ranges[i];
-    if (!(range > 0) || range >= scan.rangeMax) continue;
-    const double angle = scan.angleMin + static_cast<double>(i) * scan.angleStep;
-    points.push_back(math::transform(sensor, {range * std::cos(angle), range * std::sin(angle)}));
-  }
-}
-
 mrpt::SceneData sceneUntil(const std::string& title, const results::RunView& run,
                            std::size_t lastRow)
 {
@@ -113,7 +103,7 @@ mrpt::SceneData sceneOf(const std::string& title, const results::RunView& run,
   mrpt::SceneData scene = sceneUntil(title, run, rows.empty() ? 0 : rows.size() - 1);
   scene.landmarks = run.record.landmarks;
   for (const auto& laser : run.record.lasers)
-    appendPoints(scene.laserPoints, *laser.scan, rows[laser.row].robot.mean);
+    mrpt::appendPoints(scene.laserPoints, *laser.scan, rows[laser.row].robot.mean);
   scene.particles = std::move(particles);
   return scene;
 }

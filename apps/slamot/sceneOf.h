@@ -13,7 +13,4 @@ namespace slamot::apps
 /// What is known of paths, targets and truth up to a row of the record: no map, no scans.
 [[nodiscard]] mrpt::SceneData sceneUntil(const std::string& title, const results::RunView& run,
                                          std::size_t lastRow);
-
-/// Appends the points that a scan saw, in the map's frame.
-void appendPoints(std::vector<Point2D>& points, const core::LaserScan& scan, const Pose2D& robot);
 }  // namespace slamot::apps

@@ -74,13 +74,11 @@ class Mp4File : public VideoFile
 }  // namespace
 }  // namespace slamot::video
 
-#pragma GCC diagnostic push
 #ifdef __clang__
-#pragma GCC diagnostic ignored "-Wreturn-type-c-linkage"
+#pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 extern "C" std::unique_ptr<slamot::video::VideoFile> slamotOpenVideo(
     const std::string& path, const slamot::video::VideoFormat& format)
 {
   return std::make_unique<slamot::video::Mp4File>(path, format);
 }
-#pragma GCC diagnostic pop

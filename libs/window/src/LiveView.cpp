@@ -1,0 +1,117 @@
+#include <mrpt/gui/CDisplayWindow3D.h>
+#include <slamot/core/Error.h>
+#include <slamot/mrpt/LiveScene.h>
+#include <slamot/mrpt/buildScene.h>
+#include <slamot/window/LiveView.h>
+
+#include <X11/Xlib.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+#include SLAMOT_SCENE_HEADER
+
+namespace slamot::window
+{
+namespace
+{
+constexpr int kWidth = 1024, kHeight = 768;  // [px]
+constexpr double kBetweenPictures = 0.1;     // [s]: drawing must not slow the filter down
+
+/// MRPT would wait 5 s for a display that does not answer.
+void requireDisplay()
+{
+  const auto set = [](const char* name)
+  {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0';
+  };
+  if (set("WAYLAND_DISPLAY")) return;
+  Display* const display = set("DISPLAY") ? XOpenDisplay(nullptr) : nullptr;
+  if (display == nullptr)
+    throw core::Error(core::ExitStatus::kConfig, "command line --view",
+                      set("DISPLAY") ? "the display of DISPLAY does not answer"
+                                     : "there is no display: DISPLAY is not set",
+                      "leave it out; slamot render draws without one");
+  XCloseDisplay(display);
+}
+
+class Window3D : public LiveView
+{
+ public:
+  Window3D(const std::string& title, const core::Filter& filter)
+      : filter_(filter),
+        scene_(title),
+        window_((requireDisplay(),
+                 ::mrpt::gui::CDisplayWindow3D::Create("slamot: " + title, kWidth, kHeight)))
+  {
+    if (!window_->isOpen())
+      throw core::Error(core::ExitStatus::kConfig, "command line --view",
+                        "the display opens no window",
+                        "leave it out; slamot render draws without a display");
+    window_->setFOV(30);
+  }
+
+  void begin(const core::Estimate& start) override
+  {
+    scene_.begin(start);
+    draw(start);
+  }
+  void accept(const core::Step& step, const core::Update& update) override
+  {
+    scene_.add(step, update);
+    const std::chrono::duration<double> since = Clock::now() - drawn_;
+    if (since.count() >= kBetweenPictures) draw(update.estimate);
+  }
+  void finish(bool) override { draw(filter_.estimate()); }
+  [[nodiscard]] bool isOpen() override { return window_->isOpen(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void draw(const core::Estimate& now)
+  {
+    drawn_ = Clock::now();
+    if (!window_->isOpen()) return;
+    mrpt::RenderOptions look;
+    look.width = kWidth, look.height = kHeight;
+    const auto& scene = window_->get3DSceneAndLock();
+    const auto camera = mrpt::buildScene(*scene, scene_.at(now, filter_.particles()), look);
+    window_->unlockAccess3DScene();
+    aim(camera);
+    window_->repaint();
+  }
+
+  /// Where all is in view, until the user looks elsewhere.
+  void aim(const slamot_viz::CCamera& camera)
+  {
+    if (aimed_ && std::abs(window_->getCameraZoom() - zoom_) > 1e-3f * zoom_) return;
+    if (aimed_ && std::abs(window_->getCameraAzimuthDeg() - camera.getAzimuthDegrees()) > 0.1f)
+      return;
+    aimed_ = true;
+    zoom_ = camera.getZoomDistance();
+    window_->setCameraPointingToPoint(camera.getPointingAtX(), camera.getPointingAtY(), 0);
+    window_->setCameraAzimuthDeg(camera.getAzimuthDegrees());
+    window_->setCameraElevationDeg(camera.getElevationDegrees());
+    window_->setCameraZoom(zoom_);
+  }
+
+  const core::Filter& filter_;
+  mrpt::LiveScene scene_;
+  ::mrpt::gui::CDisplayWindow3D::Ptr window_;
+  Clock::time_point drawn_;
+  bool aimed_ = false;
+  float zoom_ = 0;
+};
+}  // namespace
+}  // namespace slamot::window
+
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
+#endif
+extern "C" std::unique_ptr<slamot::window::LiveView> slamotOpenLiveView(
+    const std::string& title, const slamot::core::Filter& filter)
+{
+  return std::make_unique<slamot::window::Window3D>(title, filter);
+}

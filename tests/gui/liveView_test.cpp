@@ -1,0 +1,68 @@
+#include <cmath>
+
+#include "Screen.h"
+
+namespace slamot
+{
+namespace
+{
+using test::Process;
+using test::Screen;
+
+// The scene's colours.
+constexpr test::Rgb kRobot{0x00, 0x72, 0xb2}, kTarget{0xd5, 0x5e, 0x00},
+    kLandmark{0x00, 0x9e, 0x73};
+
+std::string runWithView(const Screen& screen, const std::string& options = "")
+{
+  const std::string source = SLAMOT_SOURCE_DIR;
+  return "exec " SLAMOT_PROGRAM " run " + source + "/config-ini/rbpf-slamot.experiment1.ini " +
+         source + "/share/datasets/experiment1.rawlog -o " + screen.file("result") + " --view " +
+         options;
+}
+
+TEST(RunView, ShowsPathMapAndTargetUntilItIsClosed)
+{
+  if (const std::string missing = Screen::missing(); !missing.empty()) GTEST_SKIP() << missing;
+  Screen screen;
+  const auto run = screen.start(runWithView(screen), "run");
+  ASSERT_TRUE(run->says("close the window")) << run->text();
+  EXPECT_TRUE(screen.shows(kRobot, 1500)) << screen.picture().count(kRobot);
+  const auto picture = screen.picture();
+  EXPECT_GT(picture.count(kTarget), 1500) << "its path and itself";
+  EXPECT_GT(picture.count(kLandmark), 500) << "the map";
+  ASSERT_TRUE(
+      screen.act("search --sync --onlyvisible --name '^slamot' windowfocus --sync key alt+F4"));
+  EXPECT_EQ(run->status(), 0) << run->text();
+}
+
+TEST(RunView, GoesOnWhenItsWindowIsClosed)
+{
+  if (const std::string missing = Screen::missing(); !missing.empty()) GTEST_SKIP() << missing;
+  Screen screen;
+  const auto run = screen.start(runWithView(screen, "--set rbpf-slamot.particles=5000"), "run");
+  ASSERT_TRUE(
+      screen.act("search --sync --onlyvisible --name '^slamot' windowfocus --sync key alt+F4"))
+      << run->text();
+  EXPECT_EQ(run->status(), 0) << run->text();
+  EXPECT_NE(run->text().find("320 steps"), std::string::npos) << run->text();
+  EXPECT_EQ(run->text().find("close the window"), std::string::npos) << "it was closed before";
+}
+
+TEST(RunView, WithoutADisplayIsAnErrorThatSaysSo)
+{
+  const test::TemporaryFolder folder;
+  const std::string source = SLAMOT_SOURCE_DIR;
+  Process run({"sh", "-c",
+               "unset DISPLAY WAYLAND_DISPLAY; exec " SLAMOT_PROGRAM " run " + source +
+                   "/config-ini/rbpf-slamot.experiment1.ini " + source +
+                   "/share/datasets/experiment1.rawlog --view -o " + folder.file("result")},
+              folder.file("log"));
+  EXPECT_EQ(run.status(), 1);
+  EXPECT_EQ(run.text(),
+            "slamot: error: command line --view: there is no display: DISPLAY is not set; leave it "
+            "out; slamot render draws without one\n");
+  EXPECT_FALSE(std::ifstream(folder.file("result/summary.json")).good());
+}
+}  // namespace
+}  // namespace slamot
