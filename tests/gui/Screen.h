@@ -25,13 +25,17 @@ struct Picture
   int width = 0, height = 0;
   std::vector<unsigned char> rgb;
 
-  /// Pixels that differ from a colour by at most 24 over all three channels.
-  [[nodiscard]] long count(const Rgb& c) const
+  /// Pixels, right of and below a corner, that differ from a colour by at most 24 over all three
+  /// channels.
+  [[nodiscard]] long count(const Rgb& c, int left = 0, int top = 0) const
   {
     long n = 0;
-    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
-      if (std::abs(rgb[i] - c.r) + std::abs(rgb[i + 1] - c.g) + std::abs(rgb[i + 2] - c.b) <= 24)
-        ++n;
+    for (int y = top; y < height; ++y)
+      for (int x = left; x < width; ++x)
+      {
+        const unsigned char* p = &rgb[static_cast<std::size_t>(3 * (y * width + x))];
+        n += std::abs(p[0] - c.r) + std::abs(p[1] - c.g) + std::abs(p[2] - c.b) <= 24;
+      }
     return n;
   }
 };

@@ -98,20 +98,21 @@ TEST(ColorBlobs, TextNamesLabelsAndUnknownRange)
   EXPECT_NE(text.str().find("range unknown"), std::string::npos);
 }
 
-TEST(ColorBlobs, DrawsABallForEachRangedBlob)
+TEST(ColorBlobs, DrawsAMarkForEachRangedBlob)
 {
   CObservationColorBlobs o = example();
   const auto scene = o.getVisualization();
-  const auto balls = [](const slamot_viz::CSetOfObjects& objects)
+  const auto marks = [](const slamot_viz::CSetOfObjects& objects)
   {
     int n = 0;
     for (const auto& object : objects)
-      if (std::string(object->GetRuntimeClass()->className).find("CSphere") != std::string::npos)
+      if (std::string(object->GetRuntimeClass()->className).find("CSetOfTriangles") !=
+          std::string::npos)
         ++n;
     return n;
   };
-  EXPECT_EQ(balls(*scene), 1);
+  EXPECT_EQ(marks(*scene), 1);
   o.blobs.clear();
-  EXPECT_EQ(balls(*o.getVisualization()), 0);
+  EXPECT_EQ(marks(*o.getVisualization()), 0);
 }
 }  // namespace

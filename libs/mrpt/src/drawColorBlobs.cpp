@@ -1,12 +1,12 @@
 #include <slamot/mrpt/CObservationColorBlobs.h>
 
+#include "Mesh.h"
+
 #if MRPT_VERSION >= 0x030000
 #include <mrpt/viz/CSimpleLine.h>
-#include <mrpt/viz/CSphere.h>
 #include <mrpt/viz/stock_objects.h>
 #else
 #include <mrpt/opengl/CSimpleLine.h>
-#include <mrpt/opengl/CSphere.h>
 #include <mrpt/opengl/stock_objects.h>
 #endif
 
@@ -18,7 +18,7 @@ namespace slamot::obs
 namespace
 {
 constexpr double kRayLength = 5;     // [m], of a blob without range
-constexpr double kBallRadius = 0.1;  // [m]
+constexpr double kMarkRadius = 0.2;  // [m]
 
 // One colour for a label, whatever else is in the log.
 ::mrpt::img::TColorf colorOf(const std::string& label)
@@ -58,12 +58,13 @@ void addBlob(slamot_viz::CSetOfObjects& out, const CObservationColorBlobs& o,
   const auto end = pointOnRobot(o, length, b.bearing, b.elevation);
   addLine(out, pointOnRobot(o, 0, 0, 0), end, color);
   if (!b.range) return;
-  auto ball = slamot_viz::CSphere::Create(kBallRadius);
-  ball->setLocation(end);
-  ball->setColor(color);
-  ball->setName(b.id >= 0 ? b.label + " " + std::to_string(b.id) : b.label);
-  ball->enableShowName();
-  out.insert(ball);
+  // Not a sphere of MRPT's: it would be black where it looks away from the light.
+  slamot::mrpt::Mesh mark(color.asTColor());
+  mark.post({0, 0}, kMarkRadius, -kMarkRadius, kMarkRadius);
+  auto object = mark.object(b.id >= 0 ? b.label + " " + std::to_string(b.id) : b.label);
+  object->setLocation(end);
+  object->enableShowName();
+  out.insert(object);
 }
 }  // namespace
 
