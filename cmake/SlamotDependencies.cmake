@@ -4,7 +4,7 @@ find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 find_package(ZLIB REQUIRED)
-foreach(module math poses random config system io serialization bayes obs opengl maps)
+foreach(module math poses random config system io serialization bayes obs opengl maps slam)
   find_package(mrpt-${module} REQUIRED)
 endforeach()
 # OpenCV's modules one by one: its own CMake files come with all of them only.

@@ -48,7 +48,18 @@ bool holdsSightings(const core::Step& s)
 
 StepAssembler::StepAssembler(const std::string& path, const RawlogSource::Options& options,
                              const LogFacts* before, std::function<void(const Entry&)> onEntry)
-    : reader_(path), options_(options), before_(before), onEntry_(std::move(onEntry))
+    : reader_(std::make_unique<EntryReader>(path)),
+      read_([this] { return reader_->next(); }),
+      options_(options),
+      before_(before),
+      onEntry_(std::move(onEntry))
+{
+  if (before_ != nullptr) lastMotionTime_ = before_->restTime;
+}
+
+StepAssembler::StepAssembler(ReadEntry read, const RawlogSource::Options& options,
+                             const LogFacts* before)
+    : read_(std::move(read)), options_(options), before_(before)
 {
   if (before_ != nullptr) lastMotionTime_ = before_->restTime;
 }
@@ -57,13 +68,13 @@ const Entry* StepAssembler::peek()
 {
   while (!entry_ && !ended_)
   {
-    entry_ = reader_.next();
+    entry_ = read_();
     if (!entry_)
     {
       ended_ = true;
       break;
     }
-    facts_.packed = reader_.packed();
+    if (reader_) facts_.packed = reader_->packed();
     if (onEntry_) onEntry_(*entry_);
     const bool isComment = entry_->kind == Entry::Kind::kComment;
     if (isComment) facts_.comment = entry_->as<CObservationComment>()->text;  // MRPT keeps the last
@@ -82,6 +93,7 @@ void StepAssembler::take()
 
 std::optional<core::Step> StepAssembler::next()
 {
+  if (!reader_) ended_ = false;
   while (peek() != nullptr)
     if (auto step = assemble())
     {

@@ -7,6 +7,7 @@
 #include <slamot/mrpt/RawlogSource.h>
 
 #include <functional>
+#include <memory>
 
 namespace mrpt::obs
 {
@@ -45,12 +46,17 @@ class StepAssembler
   StepAssembler(const std::string& path, const RawlogSource::Options& options,
                 const LogFacts* before, std::function<void(const Entry&)> onEntry = {});
 
+  using ReadEntry = std::function<std::optional<Entry>()>;
+  /// Of entries that come one by one.  When there is none for now, next() takes it for the end, and
+  /// goes on when it is called again.
+  StepAssembler(ReadEntry read, const RawlogSource::Options& options, const LogFacts* before);
+
   /// \throws core::Error on a damaged file, on values that make no sense, and on time going
   /// backwards.
   std::optional<core::Step> next();
 
   [[nodiscard]] const LogFacts& facts() const { return facts_; }
-  [[nodiscard]] double progress() const { return reader_.progress(); }
+  [[nodiscard]] double progress() const { return reader_->progress(); }
 
  private:
   using Observation = ::mrpt::obs::CObservation;
@@ -73,7 +79,8 @@ class StepAssembler
   void noteRest(std::optional<double> time);
   void applyModel(core::Step& step);
 
-  EntryReader reader_;
+  std::unique_ptr<EntryReader> reader_;  // null: entries come one by one
+  ReadEntry read_;
   RawlogSource::Options options_;
   const LogFacts* before_;
   std::function<void(const Entry&)> onEntry_;
