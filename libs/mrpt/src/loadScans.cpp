@@ -7,7 +7,7 @@
 #include "MemoryArchive.h"
 #include "objectLayout.h"
 #include "readObservation.h"
-#include "timestamp.h"
+#include <slamot/mrpt/timestamp.h>
 
 namespace slamot::mrpt
 {
