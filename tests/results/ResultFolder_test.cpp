@@ -194,8 +194,8 @@ TEST(Summary, HasExactlyTheKeysOfTheInterface)
   EXPECT_EQ(keysOf(json),
             (std::vector<std::string>{"association", "complete", "dataset", "landmarks", "method",
                                       "mrpt_version", "observations", "particles", "relations",
-                                      "rigid", "robot", "seed", "slamot_version", "steps",
-                                      "target_set", "targets", "timing"}));
+                                      "rigid", "robot", "scan_map", "seed", "slamot_version",
+                                      "steps", "target_set", "targets", "timing"}));
   EXPECT_EQ(keysOf(json["timing"]),
             (std::vector<std::string>{"cpu_s", "peak_rss_mb", "step_median_us", "step_p99_us",
                                       "wall_s"}));
@@ -225,6 +225,7 @@ TEST(Summary, IsNullWhereThereIsNoTruth)
   EXPECT_TRUE(json["landmarks"]["ospa_m"].is_null());
   EXPECT_TRUE(json["rigid"].is_null());
   EXPECT_TRUE(json["relations"].is_null());
+  EXPECT_TRUE(json["scan_map"].is_null());
   EXPECT_TRUE(json["target_set"].is_null());
   EXPECT_EQ(json["landmarks"]["mapped"], 1);
   EXPECT_EQ(json["particles"]["ess_min"], 4.5);
