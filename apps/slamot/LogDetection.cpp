@@ -9,6 +9,7 @@
 #include <slamot/mrpt/timestamp.h>
 
 #include <cmath>
+#include <cstdio>
 
 namespace slamot::apps
 {
@@ -18,14 +19,25 @@ using ::mrpt::obs::CObservationOdometry;
 
 namespace
 {
-constexpr double kPeriodWithoutTimes = 0.1;   // [s]
-constexpr std::size_t kMostWaiting = 100000;  // entries, of a log whose clock stands still
+constexpr double kPeriodWithoutTimes = 0.1;  // [s]
+constexpr double kJitter = 0.1;              // [s]: sensors hand in a little late
+constexpr std::size_t kMostWaiting = 10000;  // entries
+constexpr std::size_t kMostWaitingBytes = 256u << 20;
 }  // namespace
 
 LogDetection::LogDetection(perception::Pipeline& pipeline, mrpt::RawlogEditor& editor,
                            const std::string& log)
-    : pipeline_(pipeline), editor_(editor), images_(mrpt::RawlogEditor::imagesFolder(log))
+    : pipeline_(pipeline),
+      editor_(editor),
+      images_(mrpt::RawlogEditor::imagesFolder(log)),
+      log_(log)
 {
+}
+
+// Of a log whose clock stands still, nothing would ever have waited long enough.
+bool LogDetection::isLong() const
+{
+  return waiting_.size() > kMostWaiting || waitingBytes_ > kMostWaitingBytes;
 }
 
 bool LogDetection::advance()
@@ -36,30 +48,68 @@ bool LogDetection::advance()
   // An image waits for the scan after it; what leaves the queue, for the images after it.
   const double apart = pipeline_.mostApart();
   for (Item& item : waiting_)
-    if (!item.ranged && (!more || item.time + apart < now_)) range(item);
-  while (!waiting_.empty() &&
-         (!more || waiting_.size() > kMostWaiting || waiting_.front().time + 2 * apart < now_))
+  {
+    if (more && item.last + apart >= now_) break;
+    if (!item.ranged) range(item);
+  }
+  while (!waiting_.empty() && (!more || isLong() || waiting_.front().last + 2 * apart < now_))
   {
     release(waiting_.front());
+    waitingBytes_ -= waiting_.front().entry.size();
     waiting_.pop_front();
   }
-  pipeline_.forgetBefore((waiting_.empty() ? now_ : waiting_.front().time) - 2 * apart);
+  double oldest = now_;
+  for (const Item& item : waiting_) oldest = std::min(oldest, item.first);
+  pipeline_.forgetBefore(oldest - 2 * apart);
   return more;
+}
+
+// By what was sensed: an action's clock, or a comment's, may be another.
+void LogDetection::setTimes(Item& item)
+{
+  bool known = false;
+  for (const mrpt::SensedEntry& seen : item.entry.sensed)
+    if (const auto t = mrpt::toSeconds(seen.observation->timestamp))
+    {
+      item.first = known ? std::min(item.first, *t) : *t;
+      item.last = known ? std::max(item.last, *t) : *t;
+      known = true;
+    }
+  if (!known)
+  {
+    // Pairs without times: each is a step of its own; so is each observation.
+    if (!timed_ && !item.entry.isFrame()) now_ += kPeriodWithoutTimes;
+    item.first = item.last = now_;
+    return;
+  }
+  if (timed_ && item.first < now_ - 2 * pipeline_.mostApart() - kJitter)
+  {
+    char what[96];
+    std::snprintf(what, sizeof what, "time %.6f s follows %.6f s", item.first, now_);
+    throw core::Error(core::ExitStatus::kNonsense, log_ + " entry " + std::to_string(entries_ - 1),
+                      what, "sort it with RawLogViewer (Re-sort by timestamp)");
+  }
+  now_ = timed_ ? std::max(now_, item.last) : item.last;
+  timed_ = true;
 }
 
 void LogDetection::take(mrpt::EditedEntry entry)
 {
   ++entries_;
-  // Pairs without times: each is a step of its own.
-  if (entry.time)
-    now_ = timed_ ? std::max(now_, *entry.time) : *entry.time, timed_ = true;
-  else if (entry.increment && !timed_)
-    now_ += kPeriodWithoutTimes;
-  if (entry.increment)
-    pipeline_.odometry().add(now_, math::compose(pipeline_.odometry().last(), *entry.increment));
   Item& item = waiting_.emplace_back();
-  item.time = now_;
+  waitingBytes_ += entry.size();
   item.entry = std::move(entry);
+  setTimes(item);
+  if (item.entry.increment)
+  {
+    hasActions_ = true;
+    moved_ = math::compose(moved_.value_or(Pose2D()), *item.entry.increment);
+  }
+  else if (moved_)  // where the robot was when the frame after the actions was sensed
+  {
+    pipeline_.odometry().add(item.first, math::compose(pipeline_.odometry().last(), *moved_));
+    moved_.reset();
+  }
   for (std::size_t i = 0; i < item.entry.sensed.size(); ++i) takeObservation(item, i);
 }
 
@@ -67,27 +117,28 @@ void LogDetection::takeObservation(Item& item, std::size_t index)
 {
   const mrpt::SensedEntry& seen = item.entry.sensed[index];
   const auto stamp = mrpt::toSeconds(seen.observation->timestamp);
-  Sensed sensed{timed_ && stamp ? *stamp : item.time, index, std::nullopt};
+  Sensed sensed{stamp ? *stamp : item.first, index, std::nullopt};
   if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(seen.observation.get()))
-    takeOdometry(sensed.time, odometry->odometry.asTPose());
+    takeOdometry(sensed.time, odometry->sensorLabel, odometry->odometry.asTPose());
   else if (seen.laser)
   {
     pipeline_.addScan(sensed.time, seen.laser);
     item.sensed.push_back(std::move(sensed));
   }
-  else if (dynamic_cast<const CObservationImage*>(seen.observation.get()) &&
+  else if (dynamic_cast<const CObservationImage*>(seen.observation.get()) != nullptr &&
            pipeline_.wantsImages())
   {
-    takeImage(sensed, seen);
+    takeImage(sensed, item, seen);
     if (sensed.look) item.sensed.push_back(std::move(sensed));
   }
 }
 
-// Beside movements of actions, odometry is the same again; of a log with observations only, poses
-// from anywhere.
-void LogDetection::takeOdometry(double time, const Pose2D& pose)
+// Beside movements of actions, odometry is the same again; of several odometers the first counts.
+void LogDetection::takeOdometry(double time, const std::string& sensor, const Pose2D& pose)
 {
-  if (!std::isfinite(pose.x + pose.y + pose.phi)) return;
+  if (hasActions_ || !std::isfinite(pose.x + pose.y + pose.phi)) return;
+  if (!odometer_) odometerLabel_ = sensor;
+  if (sensor != odometerLabel_) return;
   if (odometer_)
     pipeline_.odometry().add(
         time, math::compose(pipeline_.odometry().last(), math::between(*odometer_, pose)));
@@ -96,13 +147,13 @@ void LogDetection::takeOdometry(double time, const Pose2D& pose)
   odometer_ = pose;
 }
 
-void LogDetection::takeImage(Sensed& sensed, const mrpt::SensedEntry& entry)
+void LogDetection::takeImage(Sensed& sensed, const Item& item, const mrpt::SensedEntry& seen)
 {
-  const auto& observation = dynamic_cast<const CObservationImage&>(*entry.observation);
+  const auto& observation = dynamic_cast<const CObservationImage&>(*seen.observation);
   try
   {
     const perception::Mount mount = mountOf(observation.cameraPose);
-    const cv::Mat image = pixelsOf(observation.image, images_);
+    const cv::Mat image = pixelsOf(item.entry, seen, images_);
     const perception::Camera camera = cameraOf(observation, pipeline_.defaultCamera());
     if (!camera.makesSense())
       throw core::Error(core::ExitStatus::kConfig, observation.sensorLabel,
@@ -116,7 +167,6 @@ void LogDetection::takeImage(Sensed& sensed, const mrpt::SensedEntry& entry)
     ++unreadable_;
     unreadableWhat_ = e.what();
   }
-  observation.unload();
 }
 
 void LogDetection::range(Item& item)

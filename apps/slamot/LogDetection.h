@@ -33,15 +33,17 @@ class LogDetection
   };
   struct Item
   {
-    double time;
+    double first, last;  // times of what was sensed
     mrpt::EditedEntry entry;
     std::vector<Sensed> sensed;
     bool ranged = false;
   };
   void take(mrpt::EditedEntry entry);
   void takeObservation(Item& item, std::size_t index);
-  void takeImage(Sensed& sensed, const mrpt::SensedEntry& entry);
-  void takeOdometry(double time, const Pose2D& pose);
+  void setTimes(Item& item);
+  void takeImage(Sensed& sensed, const Item& item, const mrpt::SensedEntry& seen);
+  void takeOdometry(double time, const std::string& sensor, const Pose2D& pose);
+  [[nodiscard]] bool isLong() const;
   void range(Item& item);
   void release(Item& item);
 
@@ -49,8 +51,13 @@ class LogDetection
   mrpt::RawlogEditor& editor_;
   std::string images_;  // folder of those that the log keeps in files
   std::deque<Item> waiting_;
-  double now_ = 0;
+  std::string log_;
+  std::size_t waitingBytes_ = 0;
+  double now_ = 0;  // the latest time of anything sensed [s]
   bool timed_ = false;
+  std::optional<Pose2D> moved_;  // by actions since the last frame
+  bool hasActions_ = false;
+  std::string odometerLabel_;
   std::size_t entries_ = 0, unreadable_ = 0, blind_ = 0;
   std::string unreadableWhat_;
   std::optional<Pose2D> odometer_;

@@ -31,7 +31,7 @@ Story::Story(const SavedRun& run) : run_(run)
   whole_ = sceneOf(run.title, run.view(), run.particles);
   whole_.ofMoments = true;
   collectLaserPoints();
-  if (!run.record.lasers.empty()) whole_.scanPoints = {whole_.laserPoints.front()};
+  if (!whole_.laserPoints.empty()) whole_.scanPoints = {whole_.laserPoints.front()};
   const bool seen = std::any_of(run.record.pairings.begin(), run.record.pairings.end(),
                                 [](const eval::PairingRow& p)
                                 { return p.pairing.outcome != core::Pairing::Outcome::kRejected; });

@@ -14,16 +14,27 @@ namespace
 const Matrix3 kLens = (Matrix3() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished();
 }  // namespace
 
-cv::Mat pixelsOf(const ::mrpt::img::CImage& image, const std::string& folder)
+cv::Mat pixelsOf(const mrpt::EditedEntry& entry, const mrpt::SensedEntry& sensed,
+                 const std::string& folder)
 {
+  const auto& image =
+      dynamic_cast<const ::mrpt::obs::CObservationImage&>(*sensed.observation).image;
   if (!image.isExternallyStored())
   {
-    cv::Mat out = image.isEmpty() ? cv::Mat() : image.asCvMatRef();
+    cv::Mat out = entry.picture(sensed);
     if (out.empty()) throw NoImage("an empty image, or a damaged one");
     return out;
   }
   const auto path = std::filesystem::path(folder) / image.getExternalStorageFile();
-  cv::Mat out = cv::imread(path.string(), cv::IMREAD_COLOR);
+  cv::Mat out;
+  try
+  {
+    out = cv::imread(path.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  }
+  catch (const cv::Exception&)
+  {
+    // of a size that makes no sense
+  }
   if (out.empty()) throw NoImage(path.string() + " is missing or damaged");
   return out;
 }
@@ -31,8 +42,8 @@ cv::Mat pixelsOf(const ::mrpt::img::CImage& image, const std::string& folder)
 perception::Camera cameraOf(const ::mrpt::obs::CObservationImage& observation,
                             const perception::Camera& otherwise)
 {
-  if (otherwise.fx > 0) return otherwise;
   const auto& p = observation.cameraParams;
+  if (!(p.fx() > 0) && otherwise.fx > 0) return otherwise;
   perception::Camera out;
   out.width = static_cast<int>(p.ncols);
   out.height = static_cast<int>(p.nrows);

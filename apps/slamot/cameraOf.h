@@ -1,7 +1,7 @@
 #pragma once
 
-#include <mrpt/img/CImage.h>
 #include <mrpt/poses/CPose3D.h>
+#include <slamot/mrpt/RawlogEditor.h>
 #include <slamot/perception/Pipeline.h>
 
 #include <stdexcept>
@@ -21,9 +21,10 @@ struct NoImage : std::runtime_error
 };
 
 /// The pixels of an image, from the log or from its file in `folder`.  \throws NoImage.
-[[nodiscard]] cv::Mat pixelsOf(const ::mrpt::img::CImage& image, const std::string& folder);
+[[nodiscard]] cv::Mat pixelsOf(const mrpt::EditedEntry& entry, const mrpt::SensedEntry& sensed,
+                               const std::string& folder);
 
-/// The log's camera; `otherwise`, from the configuration, where that is given.
+/// The log's camera; `otherwise`, from the configuration, where the log has none.
 [[nodiscard]] perception::Camera cameraOf(const ::mrpt::obs::CObservationImage& observation,
                                           const perception::Camera& otherwise);
 

@@ -14,16 +14,28 @@ using ::mrpt::poses::CPose3D;
 using obs::CObservationColorBlobs;
 using perception::Camera;
 
-/// What the image's border sees: bearings at its middle row, elevations at its middle column.
-void setView(CObservationColorBlobs& out, const Camera& camera, double rangeMax)
+void include(CObservationColorBlobs& out, const Camera::Direction& d)
 {
+  out.bearingMin = std::min(out.bearingMin, d.bearing);
+  out.bearingMax = std::max(out.bearingMax, d.bearing);
+  out.elevationMin = std::min(out.elevationMin, d.elevation);
+  out.elevationMax = std::max(out.elevationMax, d.elevation);
+}
+
+/// The hull of what the image's border sees, and of what was seen.
+void setView(CObservationColorBlobs& out, const perception::Look& look, double rangeMax)
+{
+  const Camera& camera = look.camera;
   const double right = camera.width - 1, bottom = camera.height - 1;
   out.rangeMin = 0;
   out.rangeMax = rangeMax;
-  out.bearingMax = camera.direction({0, camera.cy}).bearing;
-  out.bearingMin = camera.direction({right, camera.cy}).bearing;
-  out.elevationMax = camera.direction({camera.cx, 0}).elevation;
-  out.elevationMin = camera.direction({camera.cx, bottom}).elevation;
+  out.bearingMin = out.elevationMin = math::kPi;
+  out.bearingMax = out.elevationMax = -math::kPi;
+  for (const double part : {0.0, 0.5, 1.0})
+    for (const cv::Point2d& p : {cv::Point2d(0, part * bottom), cv::Point2d(right, part * bottom),
+                                 cv::Point2d(part * right, 0), cv::Point2d(part * right, bottom)})
+      include(out, camera.direction(p));
+  for (const perception::SeenBlob& blob : look.blobs) include(out, blob.seen.at);
 }
 
 CPose3D poseOf(const perception::Mount& mount)
@@ -88,7 +100,7 @@ std::shared_ptr<::mrpt::obs::CObservation> blobsObservation(const perception::Lo
   out->timestamp = image.timestamp;
   out->sensorLabel = image.sensorLabel + "_BLOBS";
   out->sensorPoseOnRobot = poseOf(look.mount);
-  setView(*out, look.camera, pipeline.blobRange());
+  setView(*out, look, pipeline.blobRange());
   for (const perception::SeenBlob& blob : look.blobs)
     out->blobs.push_back(blobOf(blob, pipeline.colors()[blob.image.colorClass]));
   return out;

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -30,6 +31,9 @@ struct CameraLogOptions
   bool jpeg = true;           ///< of images in the log
   double cameraDelay = 0.06;  ///< after the scan [s]
   int steps = 40;
+  bool comments = false;          ///< one at each step, as of the day of its writing
+  bool odometryInFrames = false;  ///< beside the actions, the same again
+  int jumpBackAt = -1;            ///< from this step on the clock is 5 s behind
 };
 
 class CameraLog
@@ -73,7 +77,15 @@ class CameraLog
     Pose2D last = robotAt(kStart);
     for (int i = 0; i < options.steps; ++i)
     {
-      const double time = kStart + kPeriod * i;
+      const double jump = options.jumpBackAt >= 0 && i >= options.jumpBackAt ? -5 : 0;
+      const double time = kStart + kPeriod * i + jump;
+      if (options.comments)
+      {
+        ::mrpt::obs::CObservationComment comment;
+        comment.timestamp = mrpt::toTimestamp(1.7e9 + i);
+        comment.text = "seen by hand";
+        archive << comment;
+      }
       const double looked = time + (options.frames ? 0 : options.cameraDelay);
       const auto laser = scan(time, static_cast<std::uint64_t>(i));
       const auto image = picture(looked, i, path, options);
@@ -89,6 +101,8 @@ class CameraLog
         ::mrpt::obs::CSensoryFrame frame;
         frame.insert(laser);
         frame.insert(image);
+        if (options.odometryInFrames)
+          frame.insert(std::make_shared<::mrpt::obs::CObservationOdometry>(odometry(time)));
         archive << actions << frame;
         continue;
       }

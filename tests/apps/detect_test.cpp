@@ -158,6 +158,62 @@ TEST_F(SlamotDetect, KeepsAllTheRestByteForByte)
   }
 }
 
+TEST_F(SlamotDetect, CommentsOfAnotherDayDoNotMatter)
+{
+  CameraLogOptions options;
+  options.steps = 10;
+  options.comments = true;
+  CameraLog::write(path("in.rawlog"), options);
+  const Outcome o = detect();
+  ASSERT_EQ(o.status, 0) << o.text;
+  expectTarget(steps("out.rawlog"), 10);
+}
+
+TEST_F(SlamotDetect, OdometryBesideActionsIsTheSameAgain)
+{
+  CameraLogOptions options;
+  options.steps = 10;
+  options.frames = true;
+  CameraLog::write(path("in.rawlog"), options);
+  ASSERT_EQ(detect().status, 0);
+  const auto alone = steps("out.rawlog");
+  options.odometryInFrames = true;
+  CameraLog::write(path("in.rawlog"), options);
+  ASSERT_EQ(detect().status, 0);
+  const auto beside = steps("out.rawlog");
+  ASSERT_EQ(alone.size(), beside.size());
+  for (std::size_t i = 0; i < alone.size(); ++i)
+  {
+    EXPECT_EQ(alone[i].landmarks->sightings.size(), beside[i].landmarks->sightings.size());
+    EXPECT_EQ(*alone[i].blobs->blobs[0].range, *beside[i].blobs->blobs[0].range);
+  }
+}
+
+TEST_F(SlamotDetect, WhatIsFartherThanBlobsAreSeenKeepsItsBearing)
+{
+  CameraLogOptions options;
+  options.steps = 10;
+  CameraLog::write(path("in.rawlog"), options);
+  ASSERT_EQ(detect("--set blobs.max_range_m=2").status, 0);  // the target is 3 m off
+  std::size_t bearings = 0;
+  for (const core::Step& step : steps("out.rawlog"))
+    if (step.blobs)
+      for (const core::Blob& b : step.blobs->blobs) bearings += b.range ? 0 : 1;
+  EXPECT_EQ(bearings, 10u);
+}
+
+TEST_F(SlamotDetect, TimeGoingBackIsAnError)
+{
+  CameraLogOptions options;
+  options.steps = 10;
+  options.jumpBackAt = 6;
+  CameraLog::write(path("in.rawlog"), options);
+  const Outcome o = detect();
+  EXPECT_EQ(o.status, 4) << o.text;
+  EXPECT_NE(o.text.find("follows"), std::string::npos) << o.text;
+  EXPECT_FALSE(fs::exists(path("out.rawlog")));
+}
+
 TEST_F(SlamotDetect, RefusesWhatItCannotUse)
 {
   CameraLogOptions options;

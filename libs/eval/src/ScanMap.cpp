@@ -9,7 +9,7 @@ namespace slamot::eval
 namespace
 {
 constexpr double kFarthest = 30;  // [m]: beyond, beams lie too far apart to draw walls
-constexpr std::size_t kMostPoints = 200000, kFewest = 6;
+constexpr std::size_t kMostPoints = 200000, kMostQueries = 50000, kFewest = 6;
 constexpr double kRounding = 0.01;  // [m]
 
 using Cells = std::unordered_map<std::uint64_t, std::vector<Point2D>>;
@@ -125,9 +125,10 @@ std::optional<double> meanMapEntropy(const std::vector<Point2D>& points, double 
     cells[cellOf(indexOf(p.x, radius), indexOf(p.y, radius))].push_back(p);
   double sum = 0;
   std::size_t n = 0;
-  for (const Point2D& p : points)
+  const std::size_t stride = (points.size() + kMostQueries - 1) / kMostQueries;
+  for (std::size_t i = 0; i < points.size(); i += stride)
   {
-    const Moments m = around(cells, p, radius);
+    const Moments m = around(cells, points[i], radius);
     if (m.n < kFewest) continue;
     sum += m.entropy();
     ++n;

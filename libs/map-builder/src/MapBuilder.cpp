@@ -67,6 +67,7 @@ struct MapBuilder::Parts
   std::unique_ptr<LiveScene> scene;
   core::Estimate estimate;
   CSimpleMap frames;
+  std::vector<CSensoryFrame> held;  // observed, in the instant that may still go on
   std::optional<Pose2D> lastFrame;
   CMultiMetricMap metricMap;
   std::shared_ptr<maps::CLandmarkGaussianMap> landmarks;
@@ -154,10 +155,17 @@ void MapBuilder::processActionObservation(::mrpt::obs::CActionCollection& action
 void MapBuilder::processObservation(const ::mrpt::obs::CObservation::Ptr& observation)
 {
   const std::lock_guard lock(critZoneChangingMap);
-  parts_->process(parts_->steps->add(observation));
-  CSensoryFrame frame;
-  frame.insert(observation);
-  keep(frame);
+  const auto finished = parts_->steps->add(observation);
+  parts_->process(finished);
+  if (!finished.empty()) keepHeld();
+  // Its instant may go on: where the robot is then, the next one's beginning tells.
+  parts_->held.emplace_back().insert(observation);
+}
+
+void MapBuilder::keepHeld()
+{
+  for (const CSensoryFrame& frame : parts_->held) keep(frame);
+  parts_->held.clear();
 }
 
 void MapBuilder::keep(const CSensoryFrame& frame)
@@ -175,6 +183,7 @@ void MapBuilder::flush()
 {
   const std::lock_guard lock(critZoneChangingMap);
   parts_->process(parts_->steps->flush());
+  keepHeld();
 }
 
 ::mrpt::poses::CPose3DPDF::Ptr MapBuilder::getCurrentPoseEstimation() const

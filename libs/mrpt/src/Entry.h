@@ -23,6 +23,7 @@ struct Entry
   {
     std::string className;
     ::mrpt::serialization::CSerializable::Ptr object;  ///< null: a class that slamot does not use
+    std::size_t pictureAt = 0;  ///< of an image: where in Entry::bytes its picture begins
   };
 
   std::string path;

@@ -123,7 +123,7 @@ EntryReader::Extent EntryReader::walkPart(ByteCursor& cursor, Level level, bool 
   return part;
 }
 
-Entry EntryReader::parse(const Walked& walked, std::size_t size) const
+Entry EntryReader::parse(const Walked& walked, std::size_t size)
 {
   Entry entry;
   entry.path = path_;
@@ -140,24 +140,28 @@ Entry EntryReader::parse(const Walked& walked, std::size_t size) const
   return entry;
 }
 
-Entry::Part EntryReader::parsePart(const Extent& extent) const
+Entry::Part EntryReader::parsePart(const Extent& extent)
 {
   Entry::Part part;
   part.className = extent.header.id != nullptr ? extent.header.id->className : extent.header.name;
   if (!reads(extent.header)) return part;
-  const unsigned char* const first = window_.data() + begin_ + extent.begin;
+  unsigned char* const first = window_.data() + begin_ + extent.begin;
   const std::size_t size = extent.end - extent.begin;
-  if (extent.header.id == classId<::mrpt::obs::CObservationImage>())
-  {
-    part.object = readImage(first, size);
-    return part;
-  }
-  MemoryArchive archive(first, size);
   bool whole = false;
   try
   {
-    part.object = archive.ReadObject();
-    whole = part.object != nullptr && archive.left() == 0;
+    if (extent.header.id == classId<::mrpt::obs::CObservationImage>())
+    {
+      part.object = readImage(first, size);
+      part.pictureAt = extent.begin + pictureIn(ByteCursor(first, size)).begin;
+      whole = part.object != nullptr;
+    }
+    else
+    {
+      MemoryArchive archive(first, size);
+      part.object = archive.ReadObject();
+      whole = part.object != nullptr && archive.left() == 0;
+    }
   }
   catch (const std::bad_alloc&)
   {

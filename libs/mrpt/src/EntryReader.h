@@ -55,8 +55,8 @@ class EntryReader
   };
   Walked walk(ByteCursor& cursor) const;
   Extent walkPart(ByteCursor& cursor, Level level, bool last) const;
-  Entry parse(const Walked& walked, std::size_t size) const;
-  Entry::Part parsePart(const Extent& extent) const;
+  Entry parse(const Walked& walked, std::size_t size);
+  Entry::Part parsePart(const Extent& extent);
 
   [[nodiscard]] std::string where(std::size_t at) const;
   [[noreturn]] void failAtEnd();

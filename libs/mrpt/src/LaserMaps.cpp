@@ -1,7 +1,8 @@
+#include "GzWriter.h"
 #include "saveWhole.h"
 #include "toObservations.h"
 
-#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
@@ -116,13 +117,10 @@ void saveGrid(const std::string& picturePath, const std::string& gridPath,
     for (const auto& o : observationsOf(s))
       grid.insertObservation(*o, ::mrpt::poses::CPose3D(s.robot.mean));
   saveWhole(picturePath, [&](const std::string& file) { return grid.saveAsBitmapFile(file); });
-  saveWhole(gridPath,
-            [&](const std::string& file)
-            {
-              ::mrpt::io::CFileGZOutputStream out;
-              if (!out.open(file)) return false;
-              ::mrpt::serialization::archiveFrom(out) << grid;
-              return true;
-            });
+  ::mrpt::io::CMemoryStream memory;
+  ::mrpt::serialization::archiveFrom(memory) << grid;
+  GzWriter file(gridPath);  // tells of a full disk, which MRPT's own stream does not
+  file.write(memory.getRawBufferData(), memory.getTotalBytesCount());
+  file.close();
 }
 }  // namespace slamot::mrpt

@@ -3,15 +3,18 @@
 #include <slamot/mrpt/timestamp.h>
 #include "EntryReader.h"
 #include "GzWriter.h"
+#include "readImage.h"
 #include "readMotion.h"
 #include "readObservation.h"
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cstring>
 #include <filesystem>
+#include <opencv2/core.hpp>
 
 namespace slamot::mrpt
 {
@@ -65,18 +68,19 @@ std::optional<EditedEntry> RawlogEditor::next()
   if (entry->kind == Entry::Kind::kActions)
   {
     if (const auto movement = movementAmong(*entry))
-    {
       out.increment = incrementOf(*movement, *entry).mean;
-      out.time = toSeconds(movement->timestamp);
-    }
   }
   else
     for (const Entry::Part& part : entry->parts)
     {
       const auto observation = std::dynamic_pointer_cast<const CObservation>(part.object);
-      if (!observation) continue;
+      // A comment's time is that of its writing.
+      if (!observation ||
+          std::dynamic_pointer_cast<const ::mrpt::obs::CObservationComment>(observation))
+        continue;
       SensedEntry& sensed = out.sensed.emplace_back();
       sensed.observation = observation;
+      sensed.pictureAt = part.pictureAt;
       if (const auto* o =
               dynamic_cast<const ::mrpt::obs::CObservation2DRangeScan*>(observation.get()))
         sensed.laser = laserScanOf(*o, *entry);
@@ -84,6 +88,12 @@ std::optional<EditedEntry> RawlogEditor::next()
     }
   out.bytes_ = std::move(entry->bytes);
   return out;
+}
+
+cv::Mat EditedEntry::picture(const SensedEntry& image) const
+{
+  if (image.pictureAt == 0) return {};
+  return decodePicture(bytes_.data() + image.pictureAt, bytes_.size() - image.pictureAt);
 }
 
 void RawlogEditor::write(const EditedEntry& entry,

@@ -22,7 +22,9 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> jpegSize(const unsigned c
                                                                 std::size_t size)
 {
   const auto word = [&](std::size_t i) -> std::uint32_t { return data[i] * 256u + data[i + 1]; };
-  for (std::size_t i = 0; i + 1 < size;)
+  // Decoders go by the first bytes: others would be of another kind, whatever they hold.
+  if (size < 3 || data[0] != 0xff || data[1] != 0xd8 || data[2] != 0xff) return std::nullopt;
+  for (std::size_t i = 2; i + 1 < size;)
   {
     if (data[i] != kMarker || data[i + 1] == kMarker)  // decoders skip what lies between segments
     {

@@ -16,7 +16,24 @@ namespace
 using ::mrpt::img::CImage;
 using ::mrpt::obs::CObservationImage;
 
-/// The picture's pixels; empty if it can't be decoded.
+/// A JPEG of fewer bytes than this part of its pixels is damaged, or made to waste time.
+constexpr std::size_t kMostPixelsPerByte = 1000;
+
+cv::Mat decodeJpeg(const unsigned char* bytes, std::uint32_t n)
+{
+  const auto size = jpegSize(bytes, n);
+  if (!size || std::size_t{size->first} * size->second > kMostPixelsPerByte * n) return {};
+  try
+  {
+    return cv::imdecode(cv::Mat(1, static_cast<int>(n), CV_8U, const_cast<unsigned char*>(bytes)),
+                        cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  }
+  catch (const cv::Exception&)
+  {
+    return {};
+  }
+}
+
 cv::Mat decode(ByteCursor& c)
 {
   const auto bytes = [&] { return const_cast<unsigned char*>(c.here()); };
@@ -25,8 +42,7 @@ cv::Mat decode(ByteCursor& c)
     const auto width = c.read<std::int32_t>(), height = c.read<std::int32_t>();
     if (width < 0 || height < 0) return cv::Mat(-height, -width, CV_8UC3, bytes()).clone();
     const auto n = c.read<std::uint32_t>();
-    if (n == 0 || !jpegSize(c.here(), n)) return {};
-    return cv::imdecode(cv::Mat(1, static_cast<int>(n), CV_8U, bytes()), cv::IMREAD_COLOR);
+    return decodeJpeg(bytes(), n);
   }
   const auto width = c.read<std::uint32_t>(), height = c.read<std::uint32_t>();
   c.skip(sizeof(std::uint32_t));
@@ -54,19 +70,23 @@ std::shared_ptr<CObservationImage> readImage(const unsigned char* bytes, std::si
   rest.insert(rest.end(), data + place.end, data + size);
   MemoryArchive archive(rest.data(), rest.size());
   auto out = std::dynamic_pointer_cast<CObservationImage>(archive.ReadObject());
-  if (!out) return out;
+  if (!out || archive.left() != 0) return nullptr;
 
   ByteCursor picture(data, size, place.begin);
   (void)readHeader(picture);
-  if (picture.flag())
-  {
-    std::string name(picture.count(1u << 20, 1, "bytes of a file's name"), '\0');
-    std::memcpy(name.data(), picture.here(), name.size());
-    out->image.setExternalStorage(name);
-    return out;
-  }
-  const cv::Mat pixels = decode(picture);
-  if (!pixels.empty()) out->image = CImage(pixels, ::mrpt::img::SHALLOW_COPY);
+  if (!picture.flag()) return out;
+  std::string name(picture.count(1u << 20, 1, "bytes of a file's name"), '\0');
+  std::memcpy(name.data(), picture.here(), name.size());
+  out->image.setExternalStorage(name);
   return out;
+}
+
+cv::Mat decodePicture(const unsigned char* bytes, std::size_t size)
+{
+  std::vector<unsigned char> copy(bytes, bytes + size);  // which a cursor may mend
+  ByteCursor picture(copy.data(), size);
+  (void)readHeader(picture);
+  if (picture.flag()) return {};
+  return decode(picture);
 }
 }  // namespace slamot::mrpt

@@ -29,11 +29,12 @@ bool isFlat(const Camera& c)
 Camera Camera::scaledTo(int columns, int rows) const
 {
   Camera out = *this;
+  out.width = columns, out.height = rows;
   if (width <= 0 || height <= 0) return out;
   const double sx = static_cast<double>(columns) / width, sy = static_cast<double>(rows) / height;
-  out.width = columns, out.height = rows;
-  out.fx *= sx, out.cx *= sx;
-  out.fy *= sy, out.cy *= sy;
+  // Pixel (0, 0) has its centre at (0, 0).
+  out.fx *= sx, out.cx = (out.cx + 0.5) * sx - 0.5;
+  out.fy *= sy, out.cy = (out.cy + 0.5) * sy - 0.5;
   return out;
 }
 

@@ -151,18 +151,43 @@ Look Pipeline::look(double time, const std::string& sensor, const cv::Mat& image
   return out;
 }
 
-// In the scan that is nearest in time.
+// Of each laser, in the scan that is nearest in time; what two see is one.
 std::vector<RangedObject> Pipeline::objectsOf(const Look& look, const SeenBlob& blob) const
 {
-  const auto nearest =
-      std::min_element(scans_.begin(), scans_.end(),
-                       [&](const TimedScan& a, const TimedScan& b)
-                       { return std::abs(a.time - look.time) < std::abs(b.time - look.time); });
-  if (nearest == scans_.end() || std::abs(nearest->time - look.time) > mostApart_) return {};
+  constexpr double kSame = 0.2;  // [m]
+  std::vector<const TimedScan*> nearest;
+  for (const TimedScan& s : scans_)
+  {
+    if (std::abs(s.time - look.time) > mostApart_) continue;
+    const auto same = std::find_if(nearest.begin(), nearest.end(),
+                                   [&](const TimedScan* n) {
+                                     return n->scan->pose_robot_sensor == s.scan->pose_robot_sensor;
+                                   });
+    if (same == nearest.end())
+      nearest.push_back(&s);
+    else if (std::abs(s.time - look.time) < std::abs((*same)->time - look.time))
+      *same = &s;
+  }
   RangingOptions options = ranging_;
   options.object = colors_[blob.image.colorClass].object;
-  return objectsSeen(gazeOf(look.mount, blob.seen), odometry_.between(look.time, nearest->time),
-                     *nearest->scan, nearest->clusters, laser_, options);
+  const Gaze gaze = gazeOf(look.mount, blob.seen);
+  std::vector<RangedObject> out;
+  for (const TimedScan* s : nearest)
+    for (const RangedObject& o : objectsSeen(gaze, odometry_.between(look.time, s->time), *s->scan,
+                                             s->clusters, laser_, options))
+    {
+      const auto isIt = [&](const RangedObject& other)
+      {
+        return std::hypot(o.center.mean.x - other.center.mean.x,
+                          o.center.mean.y - other.center.mean.y) < kSame;
+      };
+      const bool known = nearest.size() > 1 && std::any_of(out.begin(), out.end(), isIt);
+      // Farther than blobs are said to be seen, a reader would drop the bearing too.
+      if (!known && o.range <= blobRange_) out.push_back(o);
+    }
+  std::sort(out.begin(), out.end(),
+            [](const RangedObject& a, const RangedObject& b) { return a.range < b.range; });
+  return out;
 }
 
 void Pipeline::rangeOne(const Look& look, const SeenBlob& blob, std::vector<SeenBlob>& out)
@@ -228,7 +253,13 @@ std::vector<DetectedLandmark> Pipeline::landmarks(double time, const core::Laser
 void Pipeline::forgetBefore(double time)
 {
   odometry_.forgetBefore(time - hold_);
-  while (!scans_.empty() && scans_.front().time < time) scans_.pop_front();
-  while (!movers_.empty() && movers_.front().time < time - hold_) movers_.pop_front();
+  const auto forget = [](auto& all, double before)
+  {
+    all.erase(
+        std::remove_if(all.begin(), all.end(), [&](const auto& a) { return a.time < before; }),
+        all.end());
+  };
+  forget(scans_, time);
+  forget(movers_, time - hold_);
 }
 }  // namespace slamot::perception

@@ -52,8 +52,9 @@ class Column
     const double top = row(hit.height), foot = row(0);
     const double shade = light_ * (kAmbient + (1 - kAmbient) * hit.facing);
     const Color color = fromHsv(hit.look->hue, hit.look->saturation, hit.look->value * shade);
-    const int first = std::max(0, static_cast<int>(std::floor(top + 0.5)));
-    const int last = std::min(camera_.height - 1, static_cast<int>(std::ceil(foot + 0.5)));
+    const double lowest = camera_.height - 1;
+    const int first = static_cast<int>(std::clamp(std::floor(top + 0.5), 0.0, lowest + 1));
+    const int last = static_cast<int>(std::clamp(std::ceil(foot + 0.5), -1.0, lowest));
     for (int v = first; v <= last; ++v)
     {
       // A pixel reaches half a row up and down.

@@ -51,6 +51,7 @@ class MapBuilder : public ::mrpt::slam::CMetricMapBuilder
  private:
   struct Parts;
   void keep(const ::mrpt::obs::CSensoryFrame& frame);
+  void keepHeld();
 
   std::unique_ptr<Parts> parts_;
 };

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace cv
+{
+class Mat;
+}
 namespace mrpt::obs
 {
 class CObservation;
@@ -19,6 +23,7 @@ struct SensedEntry
 {
   std::shared_ptr<const ::mrpt::obs::CObservation> observation;
   std::shared_ptr<const core::LaserScan> laser;  ///< the same, of a laser; else null
+  std::size_t pictureAt = 0;                     ///< for EditedEntry::picture()
 };
 
 /// One entry of a rawlog on its way to another.
@@ -26,9 +31,13 @@ class EditedEntry
 {
  public:
   bool mayTakeObservations = false;  ///< a frame or an observation: something was sensed
-  std::optional<double> time;       ///< of its first observation that has one, or of its action [s]
-  std::optional<Pose2D> increment;  ///< of actions: how the robot moved
-  std::vector<SensedEntry> sensed;  ///< of classes that slamot reads; images too
+  std::optional<double> time;        ///< of its first observation that has one [s]
+  std::optional<Pose2D> increment;   ///< of actions: how the robot moved
+  std::vector<SensedEntry> sensed;   ///< of classes that slamot reads; images too, without pixels
+  [[nodiscard]] bool isFrame() const { return isFrame_; }
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }  ///< [byte]
+  /// The pixels of an image that the log itself holds; empty if they can't be decoded.
+  [[nodiscard]] cv::Mat picture(const SensedEntry& image) const;
 
  private:
   friend class RawlogEditor;
