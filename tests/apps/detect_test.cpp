@@ -300,6 +300,23 @@ TEST_F(SlamotDetect, TheSimulatedPioneersAreTrackedFromImagesAndScans)
     EXPECT_TRUE(fs::exists(path(std::string("result/") + name))) << name;
 }
 
+TEST_F(SlamotDetect, TakesLandmarksOfAPlugin)
+{
+  CameraLogOptions options;
+  options.steps = 3;
+  CameraLog::write(path("in.rawlog"), options);
+  const std::string keys =
+      "--set detect.landmarks=lamps --set detect.colors=none --plugin '" SLAMOT_LAMPS "'";
+  EXPECT_EQ(detect(keys).status, 1);  // its key is missing
+  const Outcome o = detect(keys + " --set lamps.max_range_m=100");
+  ASSERT_EQ(o.status, 0) << o.text;
+  for (const core::Step& step : steps("out.rawlog"))
+    if (step.landmarks)
+    {
+      EXPECT_GT(step.landmarks->sightings.size(), 5u);
+    }
+}
+
 TEST_F(SlamotDetect, ProposesAColour)
 {
   cv::Mat image = perception::test::background();
