@@ -123,7 +123,9 @@ void addNotes(RawlogInfo& info, const LogFacts& facts)
         "times are too close together to be those of the drive: set [log] step_period_s to replace "
         "them");
   for (const SensorInfo& sensor : info.sensors)
-    if (!sensor.used) note("slamot does not use " + sensor.className);
+    if (!sensor.used)
+      note("slamot does not use " + sensor.className +
+           (sensor.className == "mrpt::obs::CObservationImage" ? " but in slamot detect" : ""));
 }
 }  // namespace
 
