@@ -105,7 +105,7 @@ void LogDetection::take(mrpt::EditedEntry entry)
     hasActions_ = true;
     moved_ = math::compose(moved_.value_or(Pose2D()), *item.entry.increment);
   }
-  else if (moved_)  // where the robot was when the frame after the actions was sensed
+  else if (moved_ && !item.entry.sensed.empty())  // where the robot was when that was sensed
   {
     pipeline_.odometry().add(item.first, math::compose(pipeline_.odometry().last(), *moved_));
     moved_.reset();

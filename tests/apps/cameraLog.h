@@ -103,7 +103,14 @@ class CameraLog
         frame.insert(image);
         if (options.odometryInFrames)
           frame.insert(std::make_shared<::mrpt::obs::CObservationOdometry>(odometry(time)));
-        archive << actions << frame;
+        archive << actions;
+        if (options.comments)
+        {
+          ::mrpt::obs::CObservationComment comment;
+          comment.timestamp = mrpt::toTimestamp(1.7e9);
+          archive << comment;
+        }
+        archive << frame;
         continue;
       }
       archive << odometry(time) << *laser << *image << odometry(time + 0.1);

@@ -167,6 +167,10 @@ TEST_F(SlamotDetect, CommentsOfAnotherDayDoNotMatter)
   const Outcome o = detect();
   ASSERT_EQ(o.status, 0) << o.text;
   expectTarget(steps("out.rawlog"), 10);
+  options.frames = true;  // there between an action and its frame too
+  CameraLog::write(path("in.rawlog"), options);
+  ASSERT_EQ(detect().status, 0);
+  expectTarget(steps("out.rawlog"), 10);
 }
 
 TEST_F(SlamotDetect, OdometryBesideActionsIsTheSameAgain)
