@@ -32,8 +32,9 @@ TEST(RawLogViewer, DrawsBlobsOnceThePluginIsLoaded)
   if (const std::string what = missing("RawLogViewer"); !what.empty()) GTEST_SKIP() << what;
   constexpr Rgb kTarget{0x00, 0x79, 0x79};  // of the label "target", in the shade
   Screen screen;
-  const auto viewer = screen.start("exec RawLogViewer -l " SLAMOT_PLUGIN " " +
-                                       std::string(kSource) + "/share/datasets/post-field.rawlog",
+  const auto viewer = screen.start("cd '" + std::string(kSource) +
+                                       "' && exec RawLogViewer -l " SLAMOT_PLUGIN
+                                       " share/datasets/post-field.rawlog",
                                    "viewer");
   int attempt = 0;
   const auto selectBlobs = [&]

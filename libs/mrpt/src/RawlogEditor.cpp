@@ -1,6 +1,5 @@
 #include <slamot/mrpt/RawlogEditor.h>
 
-#include <slamot/mrpt/timestamp.h>
 #include "EntryReader.h"
 #include "GzWriter.h"
 #include "readImage.h"
@@ -84,7 +83,6 @@ std::optional<EditedEntry> RawlogEditor::next()
       if (const auto* o =
               dynamic_cast<const ::mrpt::obs::CObservation2DRangeScan*>(observation.get()))
         sensed.laser = laserScanOf(*o, *entry);
-      if (!out.time) out.time = toSeconds(observation->timestamp);
     }
   out.bytes_ = std::move(entry->bytes);
   return out;

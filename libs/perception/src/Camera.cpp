@@ -113,8 +113,6 @@ SeenDirection directionOf(const ImageBlob& blob, const Camera& camera, const Blo
   const double v = noise.std(blob.area, blob.box.height, blob.cut);
   out.bearingStd = std::hypot(byU.bearing * u, byV.bearing * v);
   out.elevationStd = std::hypot(byU.elevation * u, byV.elevation * v);
-  const double half = 0.5 * blob.box.width;
-  out.halfWidth = std::abs(byU.bearing) * half;
   return out;
 }
 }  // namespace slamot::perception

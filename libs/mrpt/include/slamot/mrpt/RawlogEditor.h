@@ -31,7 +31,6 @@ class EditedEntry
 {
  public:
   bool mayTakeObservations = false;  ///< a frame or an observation: something was sensed
-  std::optional<double> time;        ///< of its first observation that has one [s]
   std::optional<Pose2D> increment;   ///< of actions: how the robot moved
   std::vector<SensedEntry> sensed;   ///< of classes that slamot reads; images too, without pixels
   [[nodiscard]] bool isFrame() const { return isFrame_; }

@@ -56,7 +56,6 @@ struct SeenDirection
 {
   Camera::Direction at;
   double bearingStd = 0, elevationStd = 0;
-  double halfWidth = 0;  ///< of the blob's box, as a bearing [rad]
 };
 [[nodiscard]] SeenDirection directionOf(const ImageBlob& blob, const Camera& camera,
                                         const BlobNoise& noise);
