@@ -75,6 +75,13 @@ struct Update
   Diagnostics diagnostics;
 };
 
+/// Where the robot was at a time [s], in map axes.
+struct PathPose
+{
+  double time = 0;
+  Pose2D pose;
+};
+
 /// The robot's pose samples, for whoever draws them.
 struct WeightedPose
 {

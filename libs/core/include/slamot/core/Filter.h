@@ -23,6 +23,11 @@ class Filter
 
   /// The pose samples of a particle filter; empty for others.
   [[nodiscard]] virtual std::vector<WeightedPose> particles() const { return {}; }
+
+  /// The whole path as it is believed now, a pose for every step with odometry, by rising times: of
+  /// the heaviest particle, or after later scans have closed loops.  Empty: the filter keeps none,
+  /// and its estimates, one after another, are the path.
+  [[nodiscard]] virtual std::vector<PathPose> path() const { return {}; }
 };
 
 /// What a filter is made with, besides its parameters.
