@@ -40,6 +40,10 @@ std::vector<core::WeightedPose> RbpfSlamot::particles() const
 {
   return engine_->particles();
 }
+std::vector<core::PathPose> RbpfSlamot::path() const
+{
+  return engine_->path();
+}
 core::RobotAndTarget RbpfSlamot::robotAndTarget(int target) const
 {
   return engine_->robotAndTarget(target);

@@ -117,6 +117,7 @@ core::Update EngineOf<Motion>::process(const core::Step& step)
     if (step.odometry) move(*step.odometry);
     predictTargets(dt);
     if (hasScan) takeScan(step);
+    notePath(step.time, step.odometry.has_value());
     if (step.blobs && hasTargetSet())
       dropLostLabels(step.time);
     else if (step.blobs)
@@ -167,6 +168,24 @@ void EngineOf<Motion>::samplePending(std::uint64_t stream)
                      pose = math::compose(pose, {mean.x + d[0], mean.y + d[1], mean.phi + d[2]});
                    });
   pending_ = {};
+  drawn_ = true;
+}
+
+template <class Motion>
+void EngineOf<Motion>::notePath(double time, bool isNew)
+{
+  if (drawn_)
+  {
+    for (std::size_t i = 0; i < particles_.size(); ++i)
+      particles_[i].path = paths_.add(particles_[i].path, particles_[i].pose);
+    paths_.endDraw();
+    drawn_ = false;
+  }
+  paths_.step(time, pending_.mean, isNew);
+  if (!paths_.isDue(particles_.size())) return;
+  std::vector<PathTree::Node*> ends = {&shown_};
+  for (std::size_t i = 0; i < particles_.size(); ++i) ends.push_back(&particles_[i].path);
+  paths_.sweep(ends);
 }
 
 template <class Motion>

@@ -4,6 +4,7 @@
 #include "Intensity.h"
 #include "JointFusion.h"
 #include "ParticleSet.h"
+#include "PathTree.h"
 #include "TargetMixture.h"
 #include "Workers.h"
 
@@ -20,6 +21,7 @@ class RbpfSlamot::Engine
   virtual core::Update process(const core::Step& step) = 0;
   [[nodiscard]] virtual core::Estimate estimate() const = 0;
   [[nodiscard]] virtual std::vector<core::WeightedPose> particles() const = 0;
+  [[nodiscard]] virtual std::vector<core::PathPose> path() const = 0;
   [[nodiscard]] virtual std::size_t mapBytes() const = 0;
   [[nodiscard]] virtual core::RobotAndTarget robotAndTarget(int target) const = 0;
   virtual core::Fusion fuse(const core::Evidence& evidence, const core::FusionOptions& options) = 0;
@@ -49,6 +51,7 @@ class EngineOf : public RbpfSlamot::Engine
   core::Update process(const core::Step& step) override;
   [[nodiscard]] core::Estimate estimate() const override { return estimate_; }
   [[nodiscard]] std::vector<core::WeightedPose> particles() const override;
+  [[nodiscard]] std::vector<core::PathPose> path() const override;
   [[nodiscard]] std::size_t mapBytes() const override { return pool_.bytes(); }
   [[nodiscard]] core::RobotAndTarget robotAndTarget(int target) const override;
   core::Fusion fuse(const core::Evidence& evidence, const core::FusionOptions& options) override;
@@ -91,6 +94,7 @@ class EngineOf : public RbpfSlamot::Engine
   void dropLostTracks(double time);
   void normalise();
   void collectGarbage();
+  void notePath(double time, bool isNew);
   /// Of a particle's robot in map axes, but for the frame's own doubt.
   [[nodiscard]] Gaussian<Pose2D> poseOf(std::size_t i) const;
   void updateEstimate(double time, bool afterScan);
@@ -158,6 +162,9 @@ class EngineOf : public RbpfSlamot::Engine
   std::uint64_t resamplings_ = 0;
   std::size_t best_ = 0;
   BestMap bestMap_;
+  PathTree paths_;
+  bool drawn_ = true;                       // poses since the last draw that paths_ knows
+  PathTree::Node shown_ = PathTree::kNone;  // of the particle whose map is shown
   core::Estimate estimate_;
   Matrix3 spread_ = Matrix3::Zero();        // of the estimated pose, but for the frame's doubt
   bool fromScan_ = false;                   // whether the estimate is of outcomes_

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "PathTree.h"
+
 #include <slamot/maps/LandmarkMap.h>
 
 #include <mrpt/bayes/CParticleFilterData.h>
@@ -22,6 +24,7 @@ template <class TargetState>
 struct Particle
 {
   Pose2D pose;
+  PathTree::Node path = PathTree::kNone;  // the end of its path
   Pose2D shift;  // what a team moved all of it by: pose, map and targets are given before this
   maps::LandmarkMap map;                              // a handle: nodes are shared
   std::vector<TargetState> targets;                   // one for each track, targets = tracks

@@ -76,6 +76,7 @@ void EngineOf<Motion>::showMap(std::size_t particle)
 {
   bestMap_.map = particles_[particle].map;
   bestMap_.shift = particles_[particle].shift;
+  shown_ = particles_[particle].path;
 }
 
 template <class Motion>
@@ -118,13 +119,30 @@ std::vector<core::WeightedPose> EngineOf<Motion>::particles() const
   return out;
 }
 
+template <class Motion>
+std::vector<core::PathPose> EngineOf<Motion>::path() const
+{
+  if (drawn_) return {};  // before the first step
+  const auto weightAndKin = [&](const auto& p)
+  { return std::pair(p.log_w, paths_.descends(p.d.path, shown_)); };
+  const auto& all = particles_.m_particles;
+  const auto heaviest = std::max_element(all.begin(), all.end(),
+                                         [&](const auto& a, const auto& b)
+                                         { return weightAndKin(a) < weightAndKin(b); });
+  std::vector<core::PathPose> out = paths_.path(heaviest->d.path);
+  if (isMoved_)
+    for (core::PathPose& p : out) p.pose = math::compose(heaviest->d.shift, p.pose);
+  return out;
+}
+
 #define SLAMOT_ESTIMATE_PART(Motion)                                                       \
   template Gaussian<Pose2D> EngineOf<Motion>::poseOf(std::size_t) const;                   \
   template void EngineOf<Motion>::updateEstimate(double, bool);                            \
   template void EngineOf<Motion>::estimateTracks();                                        \
   template void EngineOf<Motion>::showMap(std::size_t);                                    \
   template std::vector<core::Pairing> EngineOf<Motion>::pairings(const core::Step&) const; \
-  template std::vector<core::WeightedPose> EngineOf<Motion>::particles() const
+  template std::vector<core::WeightedPose> EngineOf<Motion>::particles() const;            \
+  template std::vector<core::PathPose> EngineOf<Motion>::path() const
 SLAMOT_ESTIMATE_PART(models::DifferentialDriveTarget);
 SLAMOT_ESTIMATE_PART(models::DampedVelocityTarget);
 SLAMOT_ESTIMATE_PART(models::ConstantVelocityTarget);

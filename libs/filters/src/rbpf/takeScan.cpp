@@ -27,7 +27,11 @@ void EngineOf<Motion>::takeScan(const core::Step& step)
   if (hasTargetSet()) beginSet(step);
 
   workers_.forEach(particles_.size(), [&](std::size_t i, int lane) { updateParticle(i, lane); });
-  if (scan_.size() > 0 || blobRays_.rays.size() > 0) pending_ = {};
+  if (scan_.size() > 0 || blobRays_.rays.size() > 0)
+  {
+    pending_ = {};
+    drawn_ = drawn_ || settings_.isInformed();
+  }
 
   std::vector<const std::vector<std::int32_t>*> matches;
   for (const Outcome& o : outcomes_) matches.push_back(&o.landmarks);

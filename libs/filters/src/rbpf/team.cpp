@@ -174,6 +174,7 @@ void EngineOf<Motion>::carryOut(const JointFusion& fusion, std::optional<std::si
 {
   const bool atRest = pending_.mean == Pose2D() && pending_.cov.isZero(0);
   if (!atRest) samplePending(kFuseStream);
+  notePath(estimate_.time, false);  // poses as they were left, before all is moved
   const Eigen::Index size = own.mean.size();
   double sum = 0;
   Joint mean = Joint::Zero();

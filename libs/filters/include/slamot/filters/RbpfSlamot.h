@@ -19,6 +19,8 @@ class RbpfSlamot : public core::TeamFilter
   core::Update process(const core::Step& step) override;
   [[nodiscard]] core::Estimate estimate() const override;
   [[nodiscard]] std::vector<core::WeightedPose> particles() const override;
+  /// Of the heaviest particle; after a resampling, of one that comes of the heaviest before it.
+  [[nodiscard]] std::vector<core::PathPose> path() const override;
 
   [[nodiscard]] core::RobotAndTarget robotAndTarget(int target) const override;
   /// \throws Error also before the first scan, when there is no map yet that could be moved.
