@@ -112,6 +112,24 @@ struct MapBuilder::Parts
       *landmarks = maps::CLandmarkGaussianMap::fromView(*estimate.landmarks);
   }
 
+  /// \param add gives steps.  Where it throws, those that came before count all the same.
+  template <class Add>
+  bool processWhat(Add&& add)
+  {
+    std::vector<core::Step> all;
+    try
+    {
+      all = add();
+    }
+    catch (...)
+    {
+      process(steps->complete());
+      throw;
+    }
+    process(all);
+    return !all.empty();
+  }
+
   [[nodiscard]] bool isFarFromLastFrame() const
   {
     if (!lastFrame) return true;
@@ -148,16 +166,14 @@ void MapBuilder::processActionObservation(::mrpt::obs::CActionCollection& action
                                           CSensoryFrame& observations)
 {
   const std::lock_guard lock(critZoneChangingMap);
-  parts_->process(parts_->steps->add(action, observations));
+  parts_->processWhat([&] { return parts_->steps->add(action, observations); });
   keep(observations);
 }
 
 void MapBuilder::processObservation(const ::mrpt::obs::CObservation::Ptr& observation)
 {
   const std::lock_guard lock(critZoneChangingMap);
-  const auto finished = parts_->steps->add(observation);
-  parts_->process(finished);
-  if (!finished.empty()) keepHeld();
+  if (parts_->processWhat([&] { return parts_->steps->add(observation); })) keepHeld();
   // Its instant may go on: where the robot is then, the next one's beginning tells.
   parts_->held.emplace_back().insert(observation);
 }

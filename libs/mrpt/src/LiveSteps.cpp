@@ -3,6 +3,8 @@
 #include <slamot/mrpt/LiveSteps.h>
 
 #include <deque>
+#include <exception>
+#include <utility>
 
 #include "scanLog.h"
 
@@ -32,6 +34,7 @@ struct LiveSteps::Parts
   std::deque<Entry> waiting;  // not seen by the assembler
   std::deque<Entry> group;    // observations of one timestamp
   std::size_t count = 0;
+  std::vector<core::Step> complete;  // not handed out yet
   StepAssembler assembler;
 
   Parts(const RawlogSource::Options& options, std::optional<double> startTime)
@@ -56,23 +59,28 @@ struct LiveSteps::Parts
     entry.kind = kind;
     return entry;
   }
-  std::vector<core::Step> assemble()
+  void assemble()
   {
-    std::vector<core::Step> steps;
+    const std::size_t before = complete.size();
     try
     {
-      while (auto step = assembler.next()) steps.push_back(std::move(*step));
-      if (lacksCovariance(assembler.facts()) && fromLog)
-        throw core::Error(core::ExitStatus::kConfig, "CObservationOdometry",
-                          "comes without covariance",
-                          "set [odometer] noise = model, v_std_mps and omega_std_deg_per_s");
+      while (auto step = assembler.next()) complete.push_back(std::move(*step));
     }
     catch (...)
     {
       waiting.clear();  // what is wrong is dropped whole
       throw;
     }
-    return steps;
+    if (!lacksCovariance(assembler.facts()) || !fromLog) return;
+    complete.resize(before);
+    throw core::Error(core::ExitStatus::kConfig, "CObservationOdometry", "comes without covariance",
+                      "set [odometer] noise = model, v_std_mps and omega_std_deg_per_s");
+  }
+  void assembleGroup()
+  {
+    for (Entry& entry : group) waiting.push_back(std::move(entry));
+    group.clear();
+    assemble();
   }
 };
 
@@ -86,33 +94,49 @@ LiveSteps::~LiveSteps() = default;
 std::vector<core::Step> LiveSteps::add(const ::mrpt::obs::CActionCollection& actions,
                                        const ::mrpt::obs::CSensoryFrame& frame)
 {
-  std::vector<core::Step> steps = flush();
+  std::exception_ptr failure;
+  try
+  {
+    parts_->assembleGroup();
+  }
+  catch (...)
+  {
+    failure = std::current_exception();  // of what came before: the pair is not to blame
+  }
   Entry motion = parts_->entryOf(Entry::Kind::kActions);
   for (const auto& action : actions) motion.parts.push_back(partOf(action.get_ptr()));
   Entry sightings = parts_->entryOf(Entry::Kind::kFrame);
   for (const CObservation::Ptr& o : frame) sightings.parts.push_back(partOf(o));
   parts_->waiting.push_back(std::move(motion));
   parts_->waiting.push_back(std::move(sightings));
-  for (core::Step& step : parts_->assemble()) steps.push_back(std::move(step));
-  return steps;
+  parts_->assemble();
+  if (failure) std::rethrow_exception(failure);
+  return complete();
 }
 
 std::vector<core::Step> LiveSteps::add(const CObservation::Ptr& observation)
 {
-  std::vector<core::Step> steps;
   const auto& group = parts_->group;
-  if (!group.empty() && group.front().as<CObservation>()->timestamp != observation->timestamp)
-    steps = flush();
+  const bool ends =
+      !group.empty() && group.front().as<CObservation>()->timestamp != observation->timestamp;
+  std::deque<Entry> ended;
+  if (ends) ended.swap(parts_->group);
   Entry entry = parts_->entryOf(Entry::Kind::kObservation);
   entry.parts.push_back(partOf(observation));
   parts_->group.push_back(std::move(entry));
-  return steps;
+  for (Entry& e : ended) parts_->waiting.push_back(std::move(e));
+  if (ends) parts_->assemble();
+  return complete();
 }
 
 std::vector<core::Step> LiveSteps::flush()
 {
-  for (Entry& entry : parts_->group) parts_->waiting.push_back(std::move(entry));
-  parts_->group.clear();
-  return parts_->assemble();
+  parts_->assembleGroup();
+  return complete();
+}
+
+std::vector<core::Step> LiveSteps::complete()
+{
+  return std::exchange(parts_->complete, {});
 }
 }  // namespace slamot::mrpt

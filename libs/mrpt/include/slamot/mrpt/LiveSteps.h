@@ -27,13 +27,17 @@ class LiveSteps
 
   // All return what is complete now, in order of time.
   // \throws core::Error: kNonsense on values that make no sense, or time that goes backwards;
-  // kConfig if nobody tells the odometry's covariance.
+  // kConfig if nobody tells the odometry's covariance.  What is wrong is left out; steps that were
+  // complete before it are not lost: complete(), or the next call, returns them.
   std::vector<core::Step> add(const ::mrpt::obs::CActionCollection& actions,
                               const ::mrpt::obs::CSensoryFrame& frame);
   /// Consecutive observations of one timestamp are a step: complete once one of another comes.
   std::vector<core::Step> add(const ::mrpt::obs::CObservation::Ptr& observation);
   /// What waited for more of its timestamp.
   std::vector<core::Step> flush();
+
+  /// Steps that are complete but were not returned, since what came after them was refused.
+  std::vector<core::Step> complete();
 
  private:
   struct Parts;
