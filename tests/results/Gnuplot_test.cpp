@@ -1,3 +1,4 @@
+#include "../../libs/results/src/layout.h"
 #include "TemporaryFolder.h"
 #include "sampleRun.h"
 #include "xml.h"
@@ -126,6 +127,42 @@ TEST(Gnuplot, PassesOnWhatItSaysWhenItFails)
   std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
   const PathVariable path(folder.file("") + ":/bin:/usr/bin");
   EXPECT_THAT(messageOfDrawing(), ::testing::HasSubstr("exit status 3: no fonts"));
+}
+
+/// How far down a text is written [px].
+double depthOf(const std::string& svg, const std::string& text)
+{
+  const auto at = svg.find("<text>" + text + "<");
+  EXPECT_NE(at, std::string::npos) << text;
+  const auto place = svg.rfind("translate(", at);
+  return std::stod(svg.substr(svg.find(',', place) + 1));
+}
+
+// The longest row of gnuplot's own legend decides how many columns it makes.
+TEST(Gnuplot, LegendsOfAnyLengthEndAboveTheDrawing)
+{
+  for (const std::size_t letters : {4u, 12u, 22u, 40u})
+    for (const int entries : {1, 3, 4, 7, 11})
+    {
+      Plot plot;
+      plot.equalAxes = true;
+      for (int i = 0; i < entries; ++i)
+      {
+        Series s{Series::Kind::kLine, "", Ink::kBlue, {0, 9}, {0, 1.0 * i}, {}, {}};
+        s.title = "s" + std::to_string(i);
+        s.title.resize(letters, '.');
+        plot.series.push_back(s);
+      }
+      for (const int width : {420, 860})
+      {
+        Figure figure{{plot}};
+        figure.width = width;
+        const std::string svg = drawFigure(figure, PictureFormat::kSvg);
+        const int top = layOut(figure).panels[0].top;
+        for (const Series& s : plot.series)
+          EXPECT_LT(depthOf(svg, s.title) + 4, top) << letters << " x " << entries << ", " << width;
+      }
+    }
 }
 }  // namespace
 }  // namespace slamot::results

@@ -8,7 +8,7 @@ namespace slamot::results
 {
 namespace
 {
-constexpr int kLeft = 88, kRight = 18, kTitle = 26, kLegendRow = 21, kGap = 12, kAxisFoot = 56;
+constexpr int kLeft = 88, kRight = 18, kTitle = 26, kLegendRow = 24, kGap = 12, kAxisFoot = 56;
 
 /// Grows by what is finite and, on a logarithmic axis, positive.
 void cover(Range& range, const std::vector<double>& values, bool logarithmic)
@@ -72,13 +72,14 @@ int equalise(PanelLayout& p, int width)
   return height;
 }
 
-/// Columns and rows of a legend whose entries are as wide as the longest.
+/// Columns and rows of a legend whose entries are as wide as the longest; gnuplot takes 9.1 px for
+/// a letter, whatever it is, and breaks rows by that.
 int legendRows(const Plot& plot, int width, int& columns)
 {
   std::size_t entries = 0, longest = 0;
   for (const Series& s : plot.series)
     if (!s.title.empty()) ++entries, longest = std::max(longest, s.title.size());
-  const int entryWidth = 52 + static_cast<int>(7.6 * static_cast<double>(longest));
+  const int entryWidth = 56 + static_cast<int>(std::ceil(9.1 * static_cast<double>(longest)));
   columns = std::max(1, std::min(static_cast<int>(entries), width / entryWidth));
   return (static_cast<int>(entries) + columns - 1) / columns;
 }
