@@ -1,9 +1,9 @@
 #include <slamot/core/Error.h>
 
 #include <cstdio>
-#include <filesystem>
 
 #include "Command.h"
+#include "ImagesBeside.h"
 #include "LogDetection.h"
 #include "Progress.h"
 #include "rawlogOutput.h"
@@ -12,23 +12,11 @@ namespace slamot::apps
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 struct DetectOptions
 {
   CommonOptions common;
   std::string config, dataset;
 };
-
-// A log that keeps its images in files beside it: the new one finds them by a link.
-void linkImages(const std::string& from, const std::string& to)
-{
-  const fs::path source = mrpt::RawlogEditor::imagesFolder(from);
-  const fs::path link = mrpt::RawlogEditor::imagesFolder(to);
-  std::error_code error;
-  if (fs::is_directory(source, error) && !fs::exists(fs::symlink_status(link, error)))
-    fs::create_directory_symlink(fs::absolute(source), link, error);
-}
 
 void report(const std::string& path, const LogDetection& detection)
 {
@@ -56,6 +44,7 @@ int detect(const DetectOptions& o)
   config.requireAllRead();
 
   const std::string path = rawlogOutput(o.common.output);
+  requirePlaceForLink(path);
   mrpt::RawlogEditor editor(o.dataset, path);
   LogDetection detection(pipeline, editor, o.dataset);
   Progress progress("entries", o.common.quiet);

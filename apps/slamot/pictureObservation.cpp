@@ -2,10 +2,8 @@
 
 #include <mrpt/obs/CObservationImage.h>
 #include <slamot/core/Error.h>
-#include <slamot/mrpt/RawlogEditor.h>
 #include <slamot/mrpt/timestamp.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
@@ -14,13 +12,6 @@ namespace slamot::apps
 namespace
 {
 constexpr const char* kLabel = "CAMERA";
-
-std::string fileName(double time)
-{
-  char name[64];
-  std::snprintf(name, sizeof name, "%s_%.6f.png", kLabel, time);
-  return name;
-}
 
 void save(const cv::Mat& pixels, const std::filesystem::path& path)
 {
@@ -34,8 +25,8 @@ void save(const cv::Mat& pixels, const std::filesystem::path& path)
 
 std::shared_ptr<::mrpt::obs::CObservation> pictureObservation(const sim::Picture& picture,
                                                               const sim::CameraSetup& camera,
-                                                              double time, const std::string& log,
-                                                              ImagesGo where)
+                                                              double time,
+                                                              const ImagesBeside* beside)
 {
   const cv::Mat pixels(picture.height, picture.width, CV_8UC3,
                        const_cast<std::uint8_t*>(picture.bgr.data()));
@@ -50,10 +41,10 @@ std::shared_ptr<::mrpt::obs::CObservation> pictureObservation(const sim::Picture
   lens.nrows = static_cast<std::uint32_t>(camera.height);
   lens.setIntrinsicParamsFromValues(camera.focal, camera.focal, 0.5 * (camera.width - 1),
                                     0.5 * (camera.height - 1));
-  if (where == ImagesGo::kBeside)
+  if (beside != nullptr)
   {
-    const std::string name = fileName(time);
-    save(pixels, std::filesystem::path(mrpt::RawlogEditor::imagesFolder(log)) / name);
+    const std::string name = ImagesBeside::nameOf(time);
+    save(pixels, beside->pathOf(name));
     out->image.setExternalStorage(name);
     return out;
   }

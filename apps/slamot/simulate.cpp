@@ -4,6 +4,7 @@
 #include <slamot/sim/World.h>
 
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 
 #include "Command.h"
@@ -57,17 +58,17 @@ struct Tally
 
 /// All steps of a world; none if interrupted.
 std::optional<Tally> writeSteps(sim::World& world, mrpt::RawlogWriter& writer,
-                                const sim::Scenario& scenario, const std::string& path,
+                                const sim::Scenario& scenario, const ImagesBeside& images,
                                 const SimulateOptions& o)
 {
-  const ImagesGo where = o.images == "inside" ? ImagesGo::kInside : ImagesGo::kBeside;
+  const ImagesBeside* const beside = o.images == "beside" ? &images : nullptr;
   Tally out;
   while (const auto step = world.next())
   {
     if (interrupted) return std::nullopt;
     std::vector<std::shared_ptr<::mrpt::obs::CObservation>> pictures;
     if (const auto picture = world.picture())
-      pictures.push_back(pictureObservation(*picture, *scenario.camera, step->time, path, where));
+      pictures.push_back(pictureObservation(*picture, *scenario.camera, step->time, beside));
     writer.write(*step, pictures);
     ++out.steps;
     out.images += pictures.size();
@@ -93,10 +94,12 @@ ExitStatus simulateOne(const sim::Scenario& scenario, const std::string& output,
 {
   sim::World world(scenario, o.common.seed, kRaw);
   const std::string path = rawlogOutput(output);
+  ImagesBeside images(path);
   mrpt::RawlogWriter writer = openLog(path, world, o);
-  const auto tally = writeSteps(world, writer, scenario, path, o);
+  const auto tally = writeSteps(world, writer, scenario, images, o);
   if (!tally) return ExitStatus::kInterrupted;
   results::saveTruth(results::truthFolder(path), world.truth());
+  images.place();
   writer.close();
   if (!o.common.quiet) report(path, *tally, world.truth());
   return ExitStatus::kDone;
@@ -107,16 +110,20 @@ ExitStatus simulateTeam(const sim::Scenario& scenario, const std::string& output
 {
   TeamLogs logs(output);
   std::vector<Tally> tallies;
+  std::deque<ImagesBeside> images;
+  for (int robot = 0; robot < static_cast<int>(scenario.robots.size()); ++robot)
+    images.emplace_back(logs.pathOf(robot));
   for (int robot = 0; robot < static_cast<int>(scenario.robots.size()); ++robot)
   {
     sim::World world(scenario, o.common.seed, kRaw, robot);
     mrpt::RawlogWriter writer = openLog(logs.partOf(robot), world, o);
-    const auto tally = writeSteps(world, writer, scenario, logs.pathOf(robot), o);
+    const auto tally = writeSteps(world, writer, scenario, images[std::size_t(robot)], o);
     if (!tally) return ExitStatus::kInterrupted;
     writer.close();
     logs.add(robot, world.truth());
     tallies.push_back(*tally);
   }
+  for (ImagesBeside& beside : images) beside.place();
   logs.place();
   for (std::size_t i = 0; i < tallies.size() && !o.common.quiet; ++i)
     report(logs.pathOf(int(i)), tallies[i], logs.truth(int(i)));
@@ -154,8 +161,9 @@ void addSimulate(CLI::App& app, int& status)
                    "frames: pairs of action and sensory frame; observations: observations only")
       ->check(CLI::IsMember({"frames", "observations"}));
   command
-      ->add_option("--images", options->images,
-                   "inside: the log holds them; beside: as files in X_Images")
+      ->add_option(
+          "--images", options->images,
+          "inside: the log holds them; beside: as files in X_Images, in place of older ones")
       ->check(CLI::IsMember({"inside", "beside"}));
   command->callback([options, &status] { status = simulate(*options); });
 }

@@ -178,6 +178,37 @@ TEST(SimulateCommand, WhatIsWrongIsOneLineAndLeavesNothing)
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.truth")));
 }
 
+TEST(SimulateCommand, ImagesBesideTheLogReplaceOlderOnesWhole)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const auto simulate = [&](int steps)
+  {
+    return test::slamot("simulate " + kScenarios + "sim.pioneers.ini -o a.rawlog --images beside " +
+                            "--set world.steps=" + std::to_string(steps),
+                        folder.file(""));
+  };
+  const auto images = [&]
+  {
+    return std::distance(fs::directory_iterator(folder.file("a_Images")), fs::directory_iterator());
+  };
+  ASSERT_EQ(simulate(20).status, 0);
+  const auto many = images();
+  ASSERT_EQ(simulate(10).status, 0);
+  EXPECT_LT(images(), many);
+  folder.write("a_Images/holiday.png", "sea");
+  const std::string log = folder.read("a.rawlog");
+  const auto refused = simulate(20);
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.text,
+            "slamot: error: a_Images: is there and holds other files than simulated images, which "
+            "are to replace it; move it away, or give another --output\n");
+  EXPECT_EQ(folder.read("a.rawlog"), log);
+  EXPECT_EQ(folder.read("a_Images/holiday.png"), "sea");
+  for (const auto& entry : fs::directory_iterator(folder.file("")))
+    EXPECT_EQ(entry.path().string().find("partial"), std::string::npos) << entry.path();
+}
+
 // The command that share/datasets/README.md gives still makes what is shipped.
 TEST(Datasets, Experiment1IsWhatItsScenarioMakes)
 {
