@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "Command.h"
+#include "laserMaps.h"
 #include "savedRun.h"
 
 namespace slamot::apps
@@ -75,6 +76,13 @@ std::string tableOf(const std::string& name, const eval::Record& record, const e
   return name + " (align " + eval::nameOf(e.align) + ")\n" + results::summaryTable(record, e, true);
 }
 
+eval::Record recordIn(const std::string& folder)
+{
+  eval::Record record = results::loadRecord(folder);
+  loadLasers(folder, record);
+  return record;
+}
+
 // The robots of a team share one map frame: they are aligned together, once.
 int evaluateTeam(EvaluateCommand o, const std::vector<std::string>& names)
 {
@@ -87,7 +95,7 @@ int evaluateTeam(EvaluateCommand o, const std::vector<std::string>& names)
   for (const std::string& name : names)
   {
     const std::string folder = (fs::path(o.result) / name).string();
-    records.push_back(results::loadRecord(folder));
+    records.push_back(recordIn(folder));
     truths.push_back(truthOf(folder, o.truth));
   }
   o.options = optionsOf(o);
@@ -113,8 +121,7 @@ int evaluate(EvaluateCommand o)
                 "give a result folder or a TUM file");
   if (const auto names = team::robotsIn(o.result); !names.empty())
     return evaluateTeam(std::move(o), names);
-  const eval::Record record =
-      isFolder ? results::loadRecord(o.result) : results::loadTumRecord(o.result);
+  const eval::Record record = isFolder ? recordIn(o.result) : results::loadTumRecord(o.result);
   eval::Truth truth = truthOf(o.result, o.truth);
   if (!isFolder) takeTargetForRobot(o.result, truth);
   o.options = optionsOf(o);

@@ -3,15 +3,15 @@
 #include <slamot/core/Error.h>
 #include <slamot/core/Params.h>
 #include <slamot/eval/Alignment.h>
-#include <slamot/mrpt/LaserMaps.h>
 #include <slamot/results/RecordFiles.h>
 #include <slamot/results/Report.h>
 #include <slamot/results/RunPlan.h>
 #include <slamot/results/TruthFiles.h>
 #include <slamot/team/savedTeam.h>
 
-#include <algorithm>
 #include <filesystem>
+
+#include "laserMaps.h"
 
 namespace slamot::apps
 {
@@ -28,20 +28,6 @@ std::string titleOf(const std::string& folder)
   results::RunInfo info;
   info.method = summary->method, info.dataset = summary->dataset;
   return results::titleOf(info) + (summary->complete ? "" : ", incomplete");
-}
-
-/// Scans belong to the row of their time; files hold tenths of microseconds.
-void addLasers(const std::string& map, eval::Record& record)
-{
-  constexpr double kSameTime = 1e-6;
-  for (const mrpt::PosedScans& s : mrpt::loadScans(map))
-  {
-    const auto at = std::lower_bound(record.rows.begin(), record.rows.end(), s.time - kSameTime,
-                                     [](const auto& row, double t) { return row.time < t; });
-    if (at == record.rows.end() || at->time > s.time + kSameTime) continue;
-    const auto row = static_cast<std::size_t>(at - record.rows.begin());
-    for (const auto& scan : s.scans) record.lasers.push_back({row, scan});
-  }
 }
 }  // namespace
 
@@ -97,10 +83,8 @@ SavedRun loadSavedRun(const std::string& folder, const std::string& truth)
     throw Error(ExitStatus::kUnreadable, truth, "there is no truth",
                 "give --truth the path of X.truth or X.rawlog");
   run.evaluation = eval::evaluate(run.record, run.truth, savedOptions(folder));
-  const fs::path place(folder);
-  if (fs::exists(place / "map.simplemap"))
-    addLasers((place / "map.simplemap").string(), run.record);
-  for (const Point2D& p : mrpt::loadParticles((place / "scene.3Dscene").string()))
+  loadLasers(folder, run.record);
+  for (const Point2D& p : mrpt::loadParticles((fs::path(folder) / "scene.3Dscene").string()))
     run.particles.push_back({{p.x, p.y, 0}, 1});
   return run;
 }

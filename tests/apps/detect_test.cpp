@@ -42,6 +42,12 @@ class SlamotDetect : public ::testing::Test
     return out;
   }
 
+  [[nodiscard]] nlohmann::json jsonOf(const std::string& name) const
+  {
+    std::ifstream file(path(name));
+    return nlohmann::json::parse(file);
+  }
+
   /// Every look must have seen the target where it was, most of them with its range.
   void expectTarget(const std::vector<core::Step>& all, std::size_t looks) const
   {
@@ -138,6 +144,29 @@ TEST_F(SlamotDetect, ReadsImagesBesideTheLog)
   EXPECT_EQ(o.status, 0);
   EXPECT_NE(o.text.find("2 images can't be read"), std::string::npos) << o.text;
   expectTarget(steps("other.rawlog"), 3);
+}
+
+TEST_F(SlamotDetect, ImagesOfAnotherLogAreNotTakenForTheNewOnes)
+{
+  CameraLogOptions options;
+  options.filesBeside = true;
+  options.steps = 3;
+  CameraLog::write(path("in.rawlog"), options);
+  fs::create_directory(path("out_Images"));
+  std::ofstream(path("out_Images/camera_0.png")) << "another's";
+  const Outcome refused = detect();
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.text,
+            "slamot: error: out_Images: is there, and the new log would take its images for its "
+            "own; move it away, or give another --output\n");
+  EXPECT_FALSE(fs::exists(path("out.rawlog")));
+  fs::remove_all(path("out_Images"));
+  fs::create_directory(path("old"));
+  fs::create_directory_symlink(path("old"), path("out_Images"));  // an older detection's
+  ASSERT_EQ(detect().status, 0);
+  EXPECT_TRUE(fs::equivalent(path("out_Images"), path("in_Images")));
+  ASSERT_EQ(detect().status, 0) << "and again";
+  EXPECT_TRUE(fs::exists(path("old")));
 }
 
 TEST_F(SlamotDetect, KeepsAllTheRestByteForByte)
@@ -291,8 +320,7 @@ TEST_F(SlamotDetect, TheSimulatedPioneersAreTrackedFromImagesAndScans)
   const Outcome run =
       slamot("run " + configs + "slamot.ini' out.rawlog -o result", folder_.string());
   ASSERT_EQ(run.status, 0) << run.text;
-  std::ifstream file(path("result/summary.json"));
-  const auto summary = nlohmann::json::parse(file);
+  const auto summary = jsonOf("result/summary.json");
   EXPECT_LT(summary["robot"]["position_rmse_m"], 0.1);
   ASSERT_EQ(summary["targets"].size(), 1u);
   EXPECT_LT(summary["targets"][0]["position_rmse_m"], 0.2);
@@ -302,6 +330,24 @@ TEST_F(SlamotDetect, TheSimulatedPioneersAreTrackedFromImagesAndScans)
             summary["scan_map"]["odometry_mean_map_entropy"]);
   for (const char* name : {"grid.png", "map.gridmap", "points.txt", "map.simplemap"})
     EXPECT_TRUE(fs::exists(path(std::string("result/") + name))) << name;
+  EXPECT_TRUE(summary["scan_map"]["path_entropy"].is_null()) << "it keeps no path";
+  EXPECT_FALSE(fs::exists(path("result/path")));
+
+  // The same from a whole path of one particle, and once more from the folder.
+  const Outcome particles = slamot("run " + configs +
+                                       "rbpf-slamot.ini' out.rawlog -o particles --set "
+                                       "rbpf-slamot.association=nn",
+                                   folder_.string());
+  ASSERT_EQ(particles.status, 0) << particles.text;
+  EXPECT_NE(particles.text.find("; of its final path -"), std::string::npos) << particles.text;
+  const auto written = jsonOf("particles/summary.json")["scan_map"];
+  EXPECT_LT(written["path_entropy"], written["odometry_mean_map_entropy"]);
+  for (const char* name : {"robot.tum", "grid.png", "map.gridmap", "points.txt", "map.simplemap"})
+    EXPECT_TRUE(fs::exists(path(std::string("particles/path/") + name))) << name;
+  ASSERT_EQ(slamot("evaluate particles -o again.json", folder_.string()).status, 0);
+  const auto again = jsonOf("again.json")["scan_map"];
+  for (const char* key : {"path_entropy", "mean_map_entropy", "odometry_mean_map_entropy"})
+    EXPECT_NEAR(again[key].get<double>(), written[key].get<double>(), 1e-6) << key;
 }
 
 TEST_F(SlamotDetect, TakesLandmarksOfAPlugin)

@@ -21,6 +21,7 @@ struct FakeFilter : core::Filter
 {
   Map map;
   core::Estimate belief;
+  std::vector<core::PathPose> whole;
 
   core::Update process(const core::Step&) override { return {belief, {}, {}}; }
   [[nodiscard]] core::Estimate estimate() const override
@@ -29,6 +30,7 @@ struct FakeFilter : core::Filter
     out.landmarks = &map;
     return out;
   }
+  [[nodiscard]] std::vector<core::PathPose> path() const override { return whole; }
 };
 
 core::Step stepAt(double time, bool odometry)
@@ -166,6 +168,30 @@ TEST(Recorder, AsksForTheMapAtTheEnd)
   ASSERT_EQ(recorder.record().landmarks.size(), 1u);
   EXPECT_EQ(recorder.record().landmarks[0].id, 4);
   EXPECT_FALSE(recorder.record().complete);
+}
+
+// Its times are those of the rows, also where the log's clock stands still.
+TEST(Recorder, AsksForThePathAtTheEnd)
+{
+  for (const bool hasStart : {false, true})
+  {
+    FakeFilter filter;
+    Recorder recorder(filter);
+    if (hasStart) recorder.begin(beliefAt(1e9, 0).estimate);
+    for (int i = 0; i < 5; ++i)
+    {
+      recorder.accept(stepAt(1e9, true), beliefAt(1e9, i));
+      filter.whole.push_back({1e9, {10.0 + i, 0, 0}});
+    }
+    recorder.finish(true);
+    const Record& r = recorder.record();
+    ASSERT_EQ(r.path.poses.size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i)
+    {
+      EXPECT_EQ(r.path.poses[i].time, r.rows[i + (hasStart ? 1 : 0)].time);
+      EXPECT_EQ(r.path.poses[i].pose.x, 10.0 + double(i));
+    }
+  }
 }
 
 TEST(Recorder, NotesTheSensorsIdentityBesideThePairing)

@@ -83,5 +83,24 @@ TEST(Relations, OfARunAreOfTheRobotItself)
   run.truth.relations.clear();
   EXPECT_FALSE(evaluate(run.record, run.truth, options).relations);
 }
+
+TEST(Relations, OfTheFinalPathAreGivenBesideThoseOfTheEstimates)
+{
+  PerfectRun run(20);
+  run.truth.relations = relationsOf(run.truth, 3);
+  EvaluationOptions options;
+  for (const Point2D arm : {Point2D(0, 0), Point2D(2, 1)})
+  {
+    options.leverArm = arm;
+    run.record.path = {};
+    EXPECT_FALSE(evaluate(run.record, run.truth, options).pathRelations);
+    run.record.path = pathOf(run.record);
+    for (TimedPose& p : run.record.path.poses) p.pose.x *= 1.5;
+    const auto e = evaluate(run.record, run.truth, options);
+    EXPECT_EQ(e.pathRelations->count, e.relations->count);
+    EXPECT_NEAR(*e.relations->translationMean, 0, 1e-12);
+    EXPECT_GT(*e.pathRelations->translationMean, 0.01);
+  }
+}
 }  // namespace
 }  // namespace slamot::eval

@@ -78,6 +78,27 @@ TEST(ScanMapQuality, TellsAPathFromDriftingOdometry)
   EXPECT_EQ(still->points, 20u * 101);
   EXPECT_EQ(*still->entropy, *still->odometryEntropy);
   EXPECT_LT(*drifting->entropy, *drifting->odometryEntropy - 0.5);
+  Record untold = drive(0);
+  untold.hasOdometry = false;
+  EXPECT_FALSE(scanMapQuality(untold)->odometryEntropy);
+}
+
+// A filter that drifted, and mended its path at the end.
+TEST(ScanMapQuality, TellsTheFinalPathFromTheEstimates)
+{
+  Record record = drive(0);
+  for (RobotRow& row : record.rows) row.robot.mean.x = 0.05 * row.time;
+  EXPECT_FALSE(scanMapQuality(record)->pathEntropy) << "the filter keeps none";
+  EXPECT_TRUE(scanPoints(record, PosesOf::kPath).empty());
+  for (const RobotRow& row : record.rows)
+    if (row.time > 0) record.path.poses.push_back({row.time, {1, 2, 0}, true});
+  const auto quality = scanMapQuality(record);
+  EXPECT_NEAR(*quality->pathEntropy, *quality->odometryEntropy, 0.05);
+  EXPECT_LT(*quality->pathEntropy, *quality->entropy - 0.5);
+  const auto points = scanPoints(record, PosesOf::kPath);
+  EXPECT_EQ(points.size(), 19u * 101) << "of the start, the path tells nothing";
+  EXPECT_NEAR(points[50].x, 3, 1e-6);
+  EXPECT_NEAR(points[50].y, 2, 1e-6);
 }
 
 TEST(ScanPoints, AreThinnedEvenly)

@@ -30,6 +30,7 @@ eval::Record smallRecord()
     row.time = 1e9 + 0.1 * i;
     row.robot.mean = {0.1 * i, 1.0 / 3, -0.2 * i};
     row.robot.cov << 0.02, 0.001, 0.002, 0.001, 0.03, 0.003, 0.002, 0.003, 0.04;
+    row.odometry = {0.2 * i, 0.1, 0.3 * i};
     row.scan = i == 2;
     r.rows.push_back(row);
   }
@@ -152,6 +153,8 @@ TEST(Record, ReadsBackAsItWasWritten)
     EXPECT_EQ(b.rows[i].robot.mean, a.rows[i].robot.mean);
     EXPECT_EQ(b.rows[i].robot.cov, a.rows[i].robot.cov);
     EXPECT_EQ(b.rows[i].scan, a.rows[i].scan);
+    EXPECT_NEAR(b.rows[i].odometry.x, a.rows[i].odometry.x, 1e-9);
+    EXPECT_NEAR(b.rows[i].odometry.phi, a.rows[i].odometry.phi, 1e-8);
   }
   ASSERT_EQ(b.targets.size(), 2u);
   EXPECT_EQ(b.targets[0].id, 3);
@@ -168,6 +171,40 @@ TEST(Record, ReadsBackAsItWasWritten)
   EXPECT_FALSE(b.steps[0].ess);
   EXPECT_TRUE(b.hasMap && b.complete);
   EXPECT_EQ(b.particles, 10);
+}
+
+TEST(Record, HasTheFinalPathInAFolderOfItsOwnIfThereIsOne)
+{
+  TemporaryFolder folder;
+  eval::Record a = smallRecord();
+  write(folder.file("out"), a);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/path")));
+  EXPECT_TRUE(loadRecord(folder.file("out")).path.empty());
+  a.path.poses = {{1e9 + 0.1, {1, -2, 3}, true}, {1e9 + 0.2, {4, 5, -3}, true}};
+  write(folder.file("out"), a);
+  const eval::Record b = loadRecord(folder.file("out"));
+  ASSERT_EQ(b.path.poses.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_NEAR(b.path.poses[i].time, a.path.poses[i].time, 2e-7);
+    EXPECT_NEAR(b.path.poses[i].pose.x, a.path.poses[i].pose.x, 1e-9);
+    EXPECT_NEAR(b.path.poses[i].pose.y, a.path.poses[i].pose.y, 1e-9);
+    EXPECT_NEAR(b.path.poses[i].pose.phi, a.path.poses[i].pose.phi, 1e-8);
+  }
+  EXPECT_EQ(b.rows.size(), a.rows.size()) << "robot.tum and robot.csv are of the estimates";
+  folder.write("out/path/robot.tum", "1 2 three\n");
+  EXPECT_THROW((void)loadRecord(folder.file("out")), core::Error);
+}
+
+TEST(Record, OfAFolderWithoutOdometryTellsNone)
+{
+  TemporaryFolder folder;
+  write(folder.file("out"), smallRecord());
+  EXPECT_TRUE(loadRecord(folder.file("out")).hasOdometry);
+  folder.write("out/odometry.tum", "1000000000.1 0 0 0 0 0 0 1\n");
+  EXPECT_THROW((void)loadRecord(folder.file("out")), core::Error);
+  std::filesystem::remove(folder.file("out/odometry.tum"));
+  EXPECT_FALSE(loadRecord(folder.file("out")).hasOdometry);
 }
 
 TEST(Record, OfATumFileHasNoCovariance)
@@ -254,16 +291,23 @@ TEST(Summary, HasTheErrorsOfTheEvaluation)
 TEST(Summary, HasTheErrorsOverRelations)
 {
   eval::Truth truth;
-  const eval::Record record = smallRecord();
+  eval::Record record = smallRecord();
   const eval::RobotRow &first = record.rows.front(), &last = record.rows.back();
   const Pose2D moved = math::between(first.robot.mean, last.robot.mean);
   truth.relations = {{first.time, last.time, math::compose(moved, Pose2D(0.3, 0.4, 0.2))}};
   auto json = summaryOf(record, truth)["relations"];
-  EXPECT_EQ(keysOf(json), (std::vector<std::string>{"count", "rotation_mean_error_rad",
+  EXPECT_EQ(keysOf(json), (std::vector<std::string>{"count", "path", "rotation_mean_error_rad",
                                                     "translation_mean_error_m"}));
+  EXPECT_TRUE(json["path"].is_null());
   EXPECT_EQ(json["count"], 1);
   EXPECT_NEAR(json["translation_mean_error_m"].get<double>(), 0.5, 1e-9);
   EXPECT_NEAR(json["rotation_mean_error_rad"].get<double>(), 0.2, 1e-9);
+  record.path.poses = {{first.time, {}, true}, {last.time, moved, true}};
+  record.path.poses[1].pose.phi += 0.7;
+  json = summaryOf(record, truth)["relations"];
+  EXPECT_NEAR(json["rotation_mean_error_rad"].get<double>(), 0.2, 1e-9);
+  EXPECT_EQ(json["path"]["count"], 1);
+  EXPECT_NEAR(json["path"]["rotation_mean_error_rad"].get<double>(), 0.5, 1e-9);
   truth.relations = {{-9, -8, {}}};
   json = summaryOf(record, truth)["relations"];
   EXPECT_EQ(json["count"], 0);

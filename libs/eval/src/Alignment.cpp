@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "poseErrors.h"
+
 namespace slamot::eval
 {
 namespace
@@ -106,8 +108,8 @@ std::vector<Evaluation> evaluateTogether(const std::vector<RunWithTruth>& runs,
   if (options.leverArm != Point2D())
   {
     auto atPoint = evaluateAtPoint(runs, options);
-    for (std::size_t i = 0; i < runs.size(); ++i)  // relations are of the robot itself
-      atPoint[i].relations = evaluateRelations(*runs[i].record, runs[i].truth->relations);
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      evaluateItself(*runs[i].record, *runs[i].truth, atPoint[i]);
     return atPoint;
   }
   const auto truthFromMap = alignment(runs, options.align, options.maxTruthGap);

@@ -47,6 +47,15 @@ void addMissed(Evaluation& evaluation)
 }
 }  // namespace
 
+void evaluateItself(const Record& record, const Truth& truth, Evaluation& evaluation)
+{
+  evaluation.relations = evaluateRelations(record, truth.relations);
+  evaluation.pathRelations.reset();
+  if (!record.path.empty())
+    evaluation.pathRelations = evaluateRelations(record.path, truth.relations);
+  evaluation.scanMap = scanMapQuality(record);
+}
+
 Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOptions& options,
                     const Pose2D& truthFromMap, const std::optional<Pose2D>& rigid)
 {
@@ -55,8 +64,7 @@ Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOp
     EvaluationOptions there = options;
     there.leverArm = {};
     Evaluation out = evaluate(ofPoint(record, options.leverArm), truth, there, truthFromMap, rigid);
-    out.relations = evaluateRelations(record, truth.relations);  // of the robot itself
-    out.scanMap = scanMapQuality(record);
+    evaluateItself(record, truth, out);
     return out;
   }
   Evaluation out;
@@ -69,8 +77,7 @@ Evaluation evaluate(const Record& record, const Truth& truth, const EvaluationOp
   out.targetSet = evaluateTargetSet(record, truth, options, truthFromMap);
   out.landmarks = evaluateLandmarks(record, truth, options, truthFromMap);
   out.association = countAssociations(record, truth);
-  out.relations = evaluateRelations(record, truth.relations);
-  out.scanMap = scanMapQuality(record);
+  evaluateItself(record, truth, out);
   if (rigid) out.rigid = evaluateRigid(record, truth, options, {truthFromMap, *rigid});
   return out;
 }

@@ -10,6 +10,8 @@ Record ofPoint(Record record, const Point2D& point_robot)
     row.robot = math::compose(row.robot, {arm, Matrix3::Zero()});
     row.odometry = math::compose(row.odometry, arm);
   }
+  record.lasers.clear();
+  record.path = {};
   return record;
 }
 }  // namespace slamot::eval

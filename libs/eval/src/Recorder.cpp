@@ -63,6 +63,25 @@ bool Record::landmarksIdentified() const
   return any;
 }
 
+namespace
+{
+/// A step's own time, but later than the row before it, even where a log's clock stands still.
+double risingTime(double time, double before)
+{
+  return time <= before + kSameInstant ? before + kApart : time;
+}
+
+/// The path that a filter believes at the end, its times those of the rows.
+Trajectory finalPath(const core::Filter& filter, double start)
+{
+  Trajectory out;
+  double before = start;
+  for (const core::PathPose& p : filter.path())
+    out.poses.push_back({before = risingTime(p.time, before), p.pose, true});
+  return out;
+}
+}  // namespace
+
 Recorder::Recorder(const core::Filter& filter, const Options& options)
     : filter_(&filter), options_(options)
 {
@@ -72,7 +91,9 @@ void Recorder::begin(const core::Estimate& start)
 {
   odometry_ = start.robot.mean;
   // A start whose time nobody knows is no instant of the log.
-  if (std::isfinite(start.time)) addRow(start.time, start);
+  if (!std::isfinite(start.time)) return;
+  addRow(start.time, start);
+  start_ = start.time;
 }
 
 void Recorder::accept(const core::Step& step, const core::Update& update)
@@ -98,9 +119,7 @@ void Recorder::accept(const core::Step& step, const core::Update& update)
 
 void Recorder::addRow(double time, const core::Estimate& estimate)
 {
-  // Each odometry step has its row, even where a log's clock stands still.
-  if (!record_.rows.empty() && time <= record_.rows.back().time + kSameInstant)
-    time = record_.rows.back().time + kApart;
+  if (!record_.rows.empty()) time = risingTime(time, record_.rows.back().time);
   record_.rows.push_back({time, estimate.robot, odometry_, scanPending_});
   scanPending_ = false;
   addTargets(estimate);
@@ -158,6 +177,7 @@ Record Recorder::takeRecord()
 void Recorder::finish(bool complete)
 {
   record_.complete = complete;
+  record_.path = finalPath(*filter_, start_);
   const core::Estimate last = filter_->estimate();
   record_.hasMap = last.landmarks != nullptr;
   if (last.landmarks)

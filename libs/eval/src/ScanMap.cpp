@@ -73,6 +73,15 @@ void forReturns(const core::LaserScan& scan, const Pose2D& robot, F&& f)
     f(i, math::transform(sensor, {r * std::cos(a), r * std::sin(a)}));
   }
 }
+std::optional<Pose2D> robotAt(const Record& record, std::size_t index, PosesOf poses)
+{
+  const RobotRow& row = record.rows[index];
+  if (poses == PosesOf::kFilter) return row.robot.mean;
+  if (poses == PosesOf::kOdometry)
+    return record.hasOdometry ? std::optional<Pose2D>(row.odometry) : std::nullopt;
+  const auto onPath = record.path.at(row.time);
+  return onPath ? std::optional<Pose2D>(onPath->pose) : std::nullopt;
+}
 }  // namespace
 
 std::vector<LaserRow> withoutTargets(const Record& record, double radius)
@@ -103,9 +112,9 @@ std::vector<Point2D> scanPoints(const Record& record, PosesOf poses)
   std::vector<Point2D> all;
   for (const LaserRow& laser : record.lasers)
   {
-    const RobotRow& row = record.rows[laser.row];
-    const Pose2D& robot = poses == PosesOf::kFilter ? row.robot.mean : row.odometry;
-    forReturns(*laser.scan, robot,
+    const auto robot = robotAt(record, laser.row, poses);
+    if (!robot) continue;
+    forReturns(*laser.scan, *robot,
                [&](std::size_t beam, const Point2D& p)
                {
                  if (laser.scan->ranges[beam] < kFarthest) all.push_back(p);
@@ -144,6 +153,7 @@ std::optional<ScanMapQuality> scanMapQuality(const Record& record)
   ScanMapQuality out;
   out.points = points.size();
   out.entropy = meanMapEntropy(points);
+  out.pathEntropy = meanMapEntropy(scanPoints(record, PosesOf::kPath));
   out.odometryEntropy = meanMapEntropy(scanPoints(record, PosesOf::kOdometry));
   return out;
 }

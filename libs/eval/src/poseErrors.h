@@ -47,4 +47,6 @@ namespace slamot::eval
 /// core::kNoId for clutter.  Landmarks of which the truth tells nothing are left out.
 [[nodiscard]] std::map<int, int> foundersByLandmark(const Record&, const Truth&);
 [[nodiscard]] std::optional<AssociationCounts> countAssociations(const Record&, const Truth&);
+/// What is of the robot itself, whatever point of it the errors are taken at: relations and scans.
+void evaluateItself(const Record&, const Truth&, Evaluation&);
 }  // namespace slamot::eval

@@ -68,6 +68,7 @@ th:first-child,td:first-child{text-align:left;padding-left:0;white-space:normal}
 a{color:var(--ink-blue)}
 figure{margin:1.2rem 0 1.8rem}
 figcaption{font-size:.93rem;margin-bottom:.4rem}
+.row{display:grid;grid-template-columns:repeat(auto-fit,minmax(17rem,1fr));gap:0 1.2rem;align-items:end}
 svg{display:block;width:100%;height:auto}
 svg text{font-family:system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
 pre{margin:0;padding:.8rem 1rem;border-radius:.4rem;background:var(--shade);overflow-x:auto;font-size:.85rem;line-height:1.45}
@@ -145,6 +146,13 @@ void HtmlPage::figure(const std::string& caption, const Figure& figure)
     body_ += "<p class=\"note\">This plot is missing: " + escaped(e.what()) + "</p>\n";
   }
   body_ += "</figure>\n";
+}
+
+void HtmlPage::figuresInRow(const std::vector<std::pair<std::string, Figure>>& captionsAndFigures)
+{
+  body_ += "<div class=\"row\">\n";
+  for (const auto& [caption, plot] : captionsAndFigures) figure(caption, plot);
+  body_ += "</div>\n";
 }
 
 std::string HtmlPage::html() const

@@ -55,12 +55,17 @@ void addErrors(HtmlPage& page, const RunView& run)
 
 void addScans(HtmlPage& page, const RunView& run)
 {
-  if (const auto scans = scanFigure(run, eval::PosesOf::kFilter))
-    page.figure(
-        "Where the laser's returns lie by the filter's poses, without those of tracked targets.",
-        *scans);
-  if (const auto scans = scanFigure(run, eval::PosesOf::kOdometry))
-    page.figure("The same by odometry alone.", *scans);
+  std::vector<std::pair<std::string, Figure>> row;
+  const auto add = [&](eval::PosesOf poses, const char* caption)
+  {
+    if (auto figure = scanFigure(run, poses)) row.emplace_back(caption, std::move(*figure));
+  };
+  add(eval::PosesOf::kFilter,
+      "Where the laser's returns lie by the filter's estimates, each made when its scan came; "
+      "without those of tracked targets.");
+  add(eval::PosesOf::kPath, "The same by the whole path as the filter believes it at the end.");
+  add(eval::PosesOf::kOdometry, "The same by odometry alone.");
+  if (!row.empty()) page.figuresInRow(row);
 }
 
 void addPlots(HtmlPage& page, const RunView& run)

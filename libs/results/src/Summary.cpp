@@ -102,7 +102,7 @@ std::string summaryJson(const RunInfo& info, const eval::Record& record,
                {"particles", particlesJson(record)},
                {"target_set", targetSetJson(evaluation.targetSet)},
                {"rigid", rigidJson(evaluation.rigid)},
-               {"relations", relationsJson(evaluation.relations)},
+               {"relations", relationsJson(evaluation.relations, evaluation.pathRelations)},
                {"scan_map", scanMapJson(evaluation.scanMap)}});
 }
 
@@ -120,7 +120,8 @@ std::string evaluationJson(const eval::Record& record, const eval::Evaluation& e
               {"particles", particlesJson(record)},
               {"target_set", targetSetJson(evaluation.targetSet)},
               {"rigid", rigidJson(evaluation.rigid)},
-              {"relations", relationsJson(evaluation.relations)}};
+              {"relations", relationsJson(evaluation.relations, evaluation.pathRelations)},
+              {"scan_map", scanMapJson(evaluation.scanMap)}};
   for (const auto& target : evaluation.targets) out["targets"].push_back(detailedTarget(target));
   for (const auto& target : evaluation.trueTargets)
     out["true_targets"].push_back(detailedTarget(target));

@@ -77,12 +77,19 @@ Json associationJson(const std::optional<eval::AssociationCounts>& a)
           {"paired_of_clutter", orNull(a->pairedOfClutter())}};
 }
 
-Json relationsJson(const std::optional<eval::RelationErrors>& r)
+Json relationsJson(const std::optional<eval::RelationErrors>& r,
+                   const std::optional<eval::RelationErrors>& ofPath)
 {
   if (!r) return nullptr;
-  return {{"count", r->count},
-          {"translation_mean_error_m", orNull(r->translationMean)},
-          {"rotation_mean_error_rad", orNull(r->rotationMean)}};
+  const auto errors = [](const eval::RelationErrors& e)
+  {
+    return Json{{"count", e.count},
+                {"translation_mean_error_m", orNull(e.translationMean)},
+                {"rotation_mean_error_rad", orNull(e.rotationMean)}};
+  };
+  Json out = errors(*r);
+  out["path"] = ofPath ? errors(*ofPath) : Json(nullptr);
+  return out;
 }
 
 Json scanMapJson(const std::optional<eval::ScanMapQuality>& s)
@@ -90,7 +97,8 @@ Json scanMapJson(const std::optional<eval::ScanMapQuality>& s)
   if (!s) return nullptr;
   return {{"points", s->points},
           {"mean_map_entropy", orNull(s->entropy)},
-          {"odometry_mean_map_entropy", orNull(s->odometryEntropy)}};
+          {"odometry_mean_map_entropy", orNull(s->odometryEntropy)},
+          {"path_entropy", orNull(s->pathEntropy)}};
 }
 
 Json rigidJson(const std::optional<eval::RigidEvaluation>& r)

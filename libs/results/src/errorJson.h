@@ -21,7 +21,8 @@ Json orNull(const std::optional<T>& value)
 [[nodiscard]] Json landmarksJson(const eval::LandmarkEvaluation& l);
 [[nodiscard]] Json targetSetJson(const std::optional<eval::TargetSetErrors>& t);
 [[nodiscard]] Json associationJson(const std::optional<eval::AssociationCounts>& a);
-[[nodiscard]] Json relationsJson(const std::optional<eval::RelationErrors>& r);
+[[nodiscard]] Json relationsJson(const std::optional<eval::RelationErrors>& r,
+                                 const std::optional<eval::RelationErrors>& ofPath);
 [[nodiscard]] Json scanMapJson(const std::optional<eval::ScanMapQuality>& s);
 [[nodiscard]] Json rigidJson(const std::optional<eval::RigidEvaluation>& r);
 }  // namespace slamot::results

@@ -68,10 +68,22 @@ void addAssociationFacts(Table& table, const eval::AssociationCounts& a)
        std::to_string(a.created) + " new, " + std::to_string(a.rejected) + " rejected"});
 }
 
+void addRelationFacts(Table& table, const std::string& name,
+                      const std::optional<eval::RelationErrors>& r)
+{
+  if (!r || !r->translationMean) return;
+  table.rows.push_back({name, fixed(*r->translationMean, 3) + " m, " +
+                                  fixed(math::radToDeg(*r->rotationMean), 2) + " deg over " +
+                                  std::to_string(r->count)});
+}
+
 void addScanMapFacts(Table& table, const std::optional<eval::ScanMapQuality>& s)
 {
   if (!s || !s->entropy) return;
   table.rows.push_back({"scan map, mean entropy (less is sharper)", fixed(*s->entropy, 3)});
+  if (s->pathEntropy)
+    table.rows.push_back(
+        {"the same of the path as believed at the end", fixed(*s->pathEntropy, 3)});
   if (s->odometryEntropy)
     table.rows.push_back({"the same of odometry alone", fixed(*s->odometryEntropy, 3)});
 }
@@ -134,6 +146,9 @@ Table factTable(const RunView& run)
     addTargetFact(table, run.record, group);
   addMapFacts(table, run.evaluation.landmarks);
   if (run.evaluation.association) addAssociationFacts(table, *run.evaluation.association);
+  addRelationFacts(table, "relations, mean errors", run.evaluation.relations);
+  addRelationFacts(table, "the same of the path as believed at the end",
+                   run.evaluation.pathRelations);
   addScanMapFacts(table, run.evaluation.scanMap);
   addParticleFacts(table, run.record);
   const auto& rows = run.record.rows;

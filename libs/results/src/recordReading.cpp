@@ -82,6 +82,22 @@ void readRobot(const fs::path& folder, eval::Record& record)
           });
 }
 
+void readOdometry(const fs::path& folder, eval::Record& record)
+{
+  const fs::path path = folder / "odometry.tum";
+  record.hasOdometry = fs::exists(path);
+  if (!record.hasOdometry) return;
+  const eval::Trajectory odometry = loadTum(path.string());
+  for (eval::RobotRow& row : record.rows)
+  {
+    const auto pose = odometry.at(row.time);
+    if (!pose)
+      throw core::Error(core::ExitStatus::kNonsense, path.string(), "ends before robot.csv",
+                        "give a folder that slamot run wrote");
+    row.odometry = pose->pose;
+  }
+}
+
 void readTarget(const fs::path& path, int id, eval::Record& record)
 {
   eval::TargetTrack track;
@@ -190,6 +206,7 @@ void readPairings(const fs::path& folder, eval::Record& record)
 eval::Record loadTumRecord(const std::string& path)
 {
   eval::Record record;
+  record.hasOdometry = false;
   for (const eval::TimedPose& p : loadTum(path).poses)
   {
     eval::RobotRow row;
@@ -212,6 +229,9 @@ eval::Record loadRecord(const std::string& folder)
   }
   eval::Record record;
   readRobot(path, record);
+  readOdometry(path, record);
+  if (const fs::path final = path / "path" / "robot.tum"; fs::exists(final))
+    record.path = loadTum(final.string());
   readTargets(path, record);
   if (const auto summary = loadSummary(folder))
   {

@@ -82,6 +82,13 @@ eval::Trajectory robotPath(const eval::Record& record)
   return out;
 }
 
+eval::Trajectory odometryPath(const eval::Record& record)
+{
+  eval::Trajectory out;
+  for (const eval::RobotRow& row : record.rows) out.poses.push_back({row.time, row.odometry});
+  return out;
+}
+
 eval::Trajectory targetPath(const eval::Record& record, const eval::TargetTrack& track)
 {
   eval::Trajectory out;
@@ -96,7 +103,13 @@ void saveRecord(const std::string& folder, const eval::Record& record)
   const auto path = [&](const std::string& name)
   { return (std::filesystem::path(folder) / name).string(); };
   saveTum(path("robot.tum"), robotPath(record));
+  if (!record.path.empty())
+  {
+    std::filesystem::create_directories(path("path"));
+    saveTum(path("path/robot.tum"), record.path);
+  }
   writeWhole(path("robot.csv"), robotCsv(record));
+  if (record.hasOdometry) saveTum(path("odometry.tum"), odometryPath(record));
   for (const eval::TargetTrack& track : record.targets)
   {
     const std::string name = "target_" + std::to_string(track.id);

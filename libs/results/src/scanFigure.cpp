@@ -4,6 +4,7 @@ namespace slamot::results
 {
 namespace
 {
+constexpr int kWidth = 360;                // [px]
 constexpr std::size_t kMostDrawn = 20000;  // more are one blot, and a large page
 
 }  // namespace
@@ -15,6 +16,7 @@ std::optional<Figure> scanFigure(const RunView& run, eval::PosesOf poses)
   plot.equalAxes = true;
   plot.xLabel = "x [m]", plot.yLabel = "y [m]";
   const auto points = eval::scanPoints(run.record, poses);
+  if (points.empty()) return std::nullopt;
   const std::size_t stride = (points.size() + kMostDrawn - 1) / kMostDrawn;
   Series cloud{Series::Kind::kPoints, "", Ink::kText, {}, {}, {}, {}};
   for (std::size_t i = 0; i < points.size(); i += stride)
@@ -23,6 +25,6 @@ std::optional<Figure> scanFigure(const RunView& run, eval::PosesOf poses)
     cloud.y.push_back(points[i].y);
   }
   plot.series.push_back(std::move(cloud));
-  return Figure{{plot}};
+  return Figure{{plot}, kWidth};
 }
 }  // namespace slamot::results

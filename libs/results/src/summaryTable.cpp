@@ -122,20 +122,28 @@ std::string rigidLines(const std::optional<eval::RigidEvaluation>& r)
   return text + landmarkLine("  landmarks", r->landmarks) + landmarkDetail(r->landmarks);
 }
 
-std::string relationsLine(const std::optional<eval::RelationErrors>& r)
+std::string relationsLines(const eval::Evaluation& e)
 {
-  if (!r) return {};
-  std::string line = left("relations") + std::to_string(r->count) + " between its poses";
-  if (r->translationMean)
-    line += "; mean errors " + fixed(*r->translationMean, 3) + " m, " + fixed(*r->rotationMean, 4) +
-            " rad";
-  return line + "\n";
+  const auto errors = [](const eval::RelationErrors& r)
+  {
+    return r.translationMean ? "; mean errors " + fixed(*r.translationMean, 3) + " m, " +
+                                   fixed(*r.rotationMean, 4) + " rad"
+                             : "";
+  };
+  if (!e.relations) return {};
+  const std::string count = std::to_string(e.relations->count);
+  std::string text = left("relations") + count + " between its poses" + errors(*e.relations) + "\n";
+  if (e.pathRelations)
+    text += left("  of its final path") + std::to_string(e.pathRelations->count) +
+            errors(*e.pathRelations) + "\n";
+  return text;
 }
 
 std::string scanMapLine(const std::optional<eval::ScanMapQuality>& s)
 {
   if (!s || !s->entropy) return {};
   std::string line = left("scan map") + "mean entropy " + fixed(*s->entropy, 3);
+  if (s->pathEntropy) line += "; of its final path " + fixed(*s->pathEntropy, 3);
   if (s->odometryEntropy) line += "; of odometry alone " + fixed(*s->odometryEntropy, 3);
   return line + " (less is sharper)\n";
 }
@@ -176,7 +184,7 @@ std::string summaryTable(const eval::Record& record, const eval::Evaluation& e, 
   if (e.robot.all.coverage95 && e.robot.all.neesSkipped > 0)
     text += left("") + "NEES leaves out " + std::to_string(e.robot.all.neesSkipped) +
             " of the robot's steps, where its covariance is singular, as at an exact start\n";
-  text += relationsLine(e.relations) + scanMapLine(e.scanMap);
+  text += relationsLines(e) + scanMapLine(e.scanMap);
   if (detailed) text += targetSetLines(e.targetSet);
   text += landmarkLine("landmarks", e.landmarks);
   if (detailed) text += landmarkDetail(e.landmarks);

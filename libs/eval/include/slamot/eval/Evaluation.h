@@ -148,6 +148,7 @@ struct Evaluation
   std::optional<AssociationCounts> association;  ///< none: the filter pairs nothing
   std::optional<RigidEvaluation> rigid;          ///< none without the robot's truth
   std::optional<RelationErrors> relations;       ///< none: truth has none
+  std::optional<RelationErrors> pathRelations;   ///< of the final path; none: also without one
   std::optional<ScanMapQuality> scanMap;         ///< none: the record has no scans
 };
 

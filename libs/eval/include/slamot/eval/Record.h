@@ -1,6 +1,7 @@
 #pragma once
 
 #include <slamot/core/Estimate.h>
+#include <slamot/eval/Trajectory.h>
 
 #include <memory>
 #include <optional>
@@ -68,6 +69,8 @@ struct LaserRow
 struct Record
 {
   std::vector<RobotRow> rows;
+  bool hasOdometry = true;  ///< whether the rows tell odometry's poses; older folders do not
+  Trajectory path;          ///< the whole path as believed at the end; empty: the filter keeps none
   std::vector<TargetTrack> targets;               ///< in rising order of (identified first, id)
   bool hasMap = false;                            ///< whether the filter makes a map at all
   std::vector<core::LandmarkEstimate> landmarks;  ///< confirmed ones, at the end
@@ -83,7 +86,8 @@ struct Record
   [[nodiscard]] bool landmarksIdentified() const;
 };
 
-/// The same with the robot's poses, and their covariances, those of another point of it.
+/// The same with the robot's poses, and their covariances, those of another point of it; without
+/// what is of the robot itself, scans and final path.
 /// \param point_robot [m], in the robot's frame.
 [[nodiscard]] Record ofPoint(Record record, const Point2D& point_robot);
 }  // namespace slamot::eval

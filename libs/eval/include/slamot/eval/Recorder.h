@@ -3,6 +3,7 @@
 #include <slamot/core/run.h>
 #include <slamot/eval/Record.h>
 
+#include <limits>
 #include <map>
 
 namespace slamot::eval
@@ -16,7 +17,7 @@ class Recorder : public core::Sink
     bool keepLasers = false;  ///< keep scans, one for each 0.1 m or 5 degrees of motion
   };
 
-  /// \param filter the one being run: its map is asked for once, at the end.
+  /// \param filter the one being run: its map and path are asked for once, at the end.
   explicit Recorder(const core::Filter& filter, const Options& options);
   explicit Recorder(const core::Filter& filter) : Recorder(filter, Options{}) {}
 
@@ -40,6 +41,7 @@ class Recorder : public core::Sink
   Options options_;
   Record record_;
   Pose2D odometry_;
+  double start_ = -std::numeric_limits<double>::infinity();  // time of its row, if it has one [s]
   bool scanPending_ = false;
   std::map<std::pair<bool, int>, TargetTrack> tracks_;  // by (not identified, id)
 };

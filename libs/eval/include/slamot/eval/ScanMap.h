@@ -11,7 +11,8 @@ namespace slamot::eval
 /// Whose poses scans are drawn from.
 enum class PosesOf
 {
-  kFilter,
+  kFilter,  ///< its estimates, each made when its scan came
+  kPath,    ///< as it believes at the end; scans that this has no pose for are left out
   kOdometry
 };
 /// The returns of a record's scans, up to 30 m, in map axes [m]; evenly thinned to 200 000.
@@ -26,11 +27,12 @@ enum class PosesOf
 [[nodiscard]] std::optional<double> meanMapEntropy(const std::vector<Point2D>& points,
                                                    double radius = 0.3);
 
-/// How sharp a run's scans make a map, beside that of odometry alone.
+/// How sharp a run's scans make a map, beside that of its final path and of odometry alone.
 struct ScanMapQuality
 {
   std::size_t points = 0;
   std::optional<double> entropy, odometryEntropy;
+  std::optional<double> pathEntropy;  ///< none: the filter keeps no path
 };
 /// None of a record without scans.
 [[nodiscard]] std::optional<ScanMapQuality> scanMapQuality(const Record& record);

@@ -34,8 +34,8 @@ struct TargetGroup
 /// robot and targets, landmarks with their 95% ellipses, odometry alone.
 [[nodiscard]] Figure mapFigure(const RunView& run);
 
-/// The returns of the laser scans, seen from above, drawn from the filter's poses or from odometry
-/// alone; none without scans.
+/// The returns of the laser scans, seen from above, drawn from these poses; none without scans, or
+/// where there are no such poses.  Narrow, to be put beside others.
 [[nodiscard]] std::optional<Figure> scanFigure(const RunView& run, eval::PosesOf poses);
 
 /// Errors of x, y and heading over time, with bounds of three standard deviations; none without

@@ -31,6 +31,8 @@ class HtmlPage
   void preformatted(const std::string& text);
   /// A plot with a caption.  Where gnuplot fails the page says so in its place, and goes on.
   void figure(const std::string& caption, const Figure& figure);
+  /// Plots with their captions, side by side as far as the page is wide enough.
+  void figuresInRow(const std::vector<std::pair<std::string, Figure>>& captionsAndFigures);
 
   /// The whole page.
   [[nodiscard]] std::string html() const;
