@@ -24,7 +24,7 @@ std::string fixed(double value, int decimals)
 }
 }  // namespace
 
-Story::Story(const SavedRun& run) : run_(run)
+RobotStory::RobotStory(const SavedRun& run) : run_(run)
 {
   collectLandmarks();
   collectErrors();
@@ -38,7 +38,7 @@ Story::Story(const SavedRun& run) : run_(run)
   if (seen) whole_.sightings.emplace_back();
 }
 
-void Story::collectLandmarks()
+void RobotStory::collectLandmarks()
 {
   const auto& landmarks = run_.record.landmarks;
   for (std::size_t i = 0; i < landmarks.size(); ++i) landmarks_[landmarks[i].id] = i;
@@ -54,14 +54,14 @@ void Story::collectLandmarks()
   if (2 * ofMap < all) firstSeen_.clear();
 }
 
-void Story::collectErrors()
+void RobotStory::collectErrors()
 {
   for (const eval::StepError& e : run_.evaluation.robot.steps)
     errors_[e.row] = e.error.head<2>().norm();
 }
 
 // A wall that is seen a thousand times is drawn once.
-void Story::collectLaserPoints()
+void RobotStory::collectLaserPoints()
 {
   const auto& rows = run_.record.rows;
   double side = 1;
@@ -80,17 +80,17 @@ void Story::collectLaserPoints()
   }
 }
 
-double Story::timeOf(std::size_t row) const
+double RobotStory::timeOf(std::size_t row) const
 {
   return run_.record.rows[row].time;
 }
 
-double Story::duration() const
+double RobotStory::duration() const
 {
   return timeOf(run_.record.rows.size() - 1) - timeOf(0);
 }
 
-std::size_t Story::rowAt(double time) const
+std::size_t RobotStory::rowAt(double time) const
 {
   const auto& rows = run_.record.rows;
   const double limit = timeOf(0) + time + 1e-9;
@@ -99,7 +99,7 @@ std::size_t Story::rowAt(double time) const
   return after == rows.begin() ? 0 : static_cast<std::size_t>(after - rows.begin()) - 1;
 }
 
-mrpt::Moment Story::at(std::size_t row) const
+mrpt::Moment RobotStory::at(std::size_t row) const
 {
   mrpt::Moment moment;
   mrpt::SceneData& scene = moment.scene;
@@ -119,7 +119,7 @@ mrpt::Moment Story::at(std::size_t row) const
   return moment;
 }
 
-std::vector<Point2D> Story::scanAt(std::size_t row) const
+std::vector<Point2D> RobotStory::scanAt(std::size_t row) const
 {
   const auto& lasers = run_.record.lasers;
   const auto after =
@@ -132,7 +132,8 @@ std::vector<Point2D> Story::scanAt(std::size_t row) const
   return points;
 }
 
-std::vector<mrpt::Polyline> Story::sightingsAt(std::size_t row, const mrpt::SceneData& scene) const
+std::vector<mrpt::Polyline> RobotStory::sightingsAt(std::size_t row,
+                                                    const mrpt::SceneData& scene) const
 {
   const auto& all = run_.record.pairings;
   const auto after =
@@ -153,18 +154,24 @@ std::vector<mrpt::Polyline> Story::sightingsAt(std::size_t row, const mrpt::Scen
   return rays;
 }
 
-std::string Story::captionAt(std::size_t row) const
+std::optional<double> RobotStory::errorAt(std::size_t row) const
+{
+  const auto error = errors_.find(row);
+  return error == errors_.end() ? std::nullopt : std::optional<double>(error->second);
+}
+
+std::string RobotStory::captionAt(std::size_t row) const
 {
   std::string text = "t = " + fixed(timeOf(row) - timeOf(0), 1) + " s";
-  if (const auto error = errors_.find(row); error != errors_.end())
-    text += "   position error " + fixed(error->second, error->second < 10 ? 2 : 1) + " m";
+  if (const auto error = errorAt(row))
+    text += "   position error " + fixed(*error, *error < 10 ? 2 : 1) + " m";
   else if (!errors_.empty())
     text += "   no truth for this moment";
   return text;
 }
 
 // Its own heading would shake the picture with each update.
-Pose2D Story::lookedAt(std::size_t row) const
+Pose2D RobotStory::lookedAt(std::size_t row) const
 {
   const auto& rows = run_.record.rows;
   double x = 0, y = 0;

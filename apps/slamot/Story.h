@@ -8,22 +8,36 @@
 
 namespace slamot::apps
 {
-/// A run as moments that can be drawn.  Of the map, files hold the end only: a landmark stands
-/// where it will be at the end, from its first sighting on, or, where most sightings were of
-/// landmarks that the map no longer holds, from the start.
+/// A result as moments that can be drawn, one a row.
 class Story
 {
  public:
-  /// \param run must outlive it.
-  explicit Story(const SavedRun& run);
-
+  virtual ~Story() = default;
   /// All of it: what moments' pictures have in common.
-  [[nodiscard]] const mrpt::SceneData& whole() const { return whole_; }
+  [[nodiscard]] virtual const mrpt::SceneData& whole() const = 0;
   /// From the first row to the last [s].
-  [[nodiscard]] double duration() const;
+  [[nodiscard]] virtual double duration() const = 0;
   /// The last row that is not after a time [s, from the first row].
-  [[nodiscard]] std::size_t rowAt(double time) const;
-  [[nodiscard]] mrpt::Moment at(std::size_t row) const;
+  [[nodiscard]] virtual std::size_t rowAt(double time) const = 0;
+  [[nodiscard]] virtual mrpt::Moment at(std::size_t row) const = 0;
+};
+
+/// One robot's run.  Of the map, files hold the end only: a landmark stands where it will be at the
+/// end, from its first sighting on, or, where most sightings were of landmarks that the map no
+/// longer holds, from the start.
+class RobotStory : public Story
+{
+ public:
+  /// \param run must outlive it.
+  explicit RobotStory(const SavedRun& run);
+
+  [[nodiscard]] const mrpt::SceneData& whole() const override { return whole_; }
+  [[nodiscard]] double duration() const override;
+  [[nodiscard]] std::size_t rowAt(double time) const override;
+  [[nodiscard]] mrpt::Moment at(std::size_t row) const override;
+
+  /// Of the robot's position in a row [m]; none without truth for it.
+  [[nodiscard]] std::optional<double> errorAt(std::size_t row) const;
 
  private:
   struct LaserPoint

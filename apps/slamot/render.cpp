@@ -1,10 +1,12 @@
 #include <slamot/core/Error.h>
 #include <slamot/mrpt/Scene.h>
+#include <slamot/team/savedTeam.h>
 
 #include <cstdio>
 #include <filesystem>
 
 #include "Command.h"
+#include "TeamStory.h"
 #include "film.h"
 
 namespace slamot::apps
@@ -30,10 +32,40 @@ struct RenderCommand
   throw Error(ExitStatus::kConfig, "command line " + option, what, mend);
 }
 
+/// A result read back, of a robot or a team, and its story.
+class Tale
+{
+ public:
+  explicit Tale(const RenderCommand& o)
+  {
+    if (!fs::is_directory(o.result) || team::robotsIn(o.result).empty())
+    {
+      run_ = loadSavedRun(o.result, o.truth);
+      story_ = std::make_unique<RobotStory>(run_);
+      return;
+    }
+    if (!o.truth.empty()) refuse("--truth", "is of one robot, and this is a team", "leave it out");
+    if (o.look.view == mrpt::View::kFollow)
+      refuse("--view follow", "is of one robot, and this is a team",
+             "give a robot's folder, or leave it out");
+    team_ = loadSavedTeam(o.result);
+    story_ = std::make_unique<TeamStory>(team_);
+  }
+  Tale(const Tale&) = delete;
+  Tale& operator=(const Tale&) = delete;
+
+  [[nodiscard]] const Story& story() const { return *story_; }
+
+ private:
+  SavedRun run_;
+  SavedTeam team_;
+  std::unique_ptr<Story> story_;
+};
+
 void renderMoment(const RenderCommand& o)
 {
-  const SavedRun run = loadSavedRun(o.result, o.truth);
-  const Story story(run);
+  const Tale tale(o);
+  const Story& story = tale.story();
   const double time = o.time.value_or(story.duration());
   if (time > story.duration())
   {
@@ -68,8 +100,8 @@ int render(const RenderCommand& o)
     refuse("--from-above", "is of --view plan", "leave one of them out");
   if (kind == ".png") return renderPicture(o), 0;
   if (o.time) refuse("--time", "is of pictures", "end --output in .png");
-  const SavedRun run = loadSavedRun(o.result, o.truth);
-  const bool whole = writeFilm(o.output, Story(run), o.look, o.film);
+  const Tale tale(o);
+  const bool whole = writeFilm(o.output, tale.story(), o.look, o.film);
   return static_cast<int>(whole ? ExitStatus::kDone : ExitStatus::kInterrupted);
 }
 
@@ -123,10 +155,13 @@ void addRender(CLI::App& app, int& status)
   auto o = std::make_shared<RenderCommand>();
   CLI::App* command = app.add_subcommand(
       "render",
-      "Draw a result to a picture, or its run to a video; needs no display.\n"
-      "Particles are known at the end only, landmarks as they are at the end.\n"
+      "Draw a result, of a robot or a team, to a picture, or its run to a video; needs no "
+      "display.\n"
+      "Landmarks appear when first seen, where they are at the end; particles at the end only.\n"
       "Example: slamot render slamot-out/rbpf-slamot-experiment1 -o experiment1.mp4 --view follow");
-  command->add_option("result", o->result, "A result folder; for a picture also a .3Dscene file")
+  command
+      ->add_option("result", o->result,
+                   "A result folder, also a team's; for a picture also a .3Dscene file")
       ->required()
       ->type_name("RESULT");
   command->add_option("-o,--output", o->output, "The picture or video")

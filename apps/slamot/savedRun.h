@@ -32,4 +32,15 @@ struct SavedRun
 /// \param truth PREFIX as of findTruth().
 /// \throws core::Error where the folder holds no path of a robot, or is of a team.
 [[nodiscard]] SavedRun loadSavedRun(const std::string& folder, const std::string& truth);
+
+/// A team's result folder, read back.
+struct SavedTeam
+{
+  std::string title;
+  std::vector<std::string> names;  ///< of the robots
+  std::vector<SavedRun> runs;      ///< of each, all with one alignment
+};
+
+/// \throws core::Error where the folder is no team's, or a robot's in it can't be used.
+[[nodiscard]] SavedTeam loadSavedTeam(const std::string& folder);
 }  // namespace slamot::apps

@@ -9,26 +9,6 @@ namespace slamot::apps
 {
 namespace
 {
-/// The landmarks of all robots.
-std::vector<core::LandmarkEstimate> landmarksOf(const team::TeamView& team)
-{
-  std::vector<core::LandmarkEstimate> out;
-  std::map<int, core::LandmarkEstimate> surest;
-  for (const auto& robot : team.robots)
-    for (const core::LandmarkEstimate& l : robot.run.record.landmarks)
-    {
-      if (!robot.run.record.landmarksIdentified())
-      {
-        out.push_back(l);
-        continue;
-      }
-      const auto [it, isNew] = surest.emplace(l.id, l);
-      if (!isNew && l.position.cov.trace() < it->second.position.cov.trace()) it->second = l;
-    }
-  for (const auto& [id, l] : surest) out.push_back(l);
-  return out;
-}
-
 mrpt::SceneMember memberOf(const team::TeamView& team, std::size_t r, mrpt::SceneData scene)
 {
   const auto& robot = team.robots[r];
@@ -48,11 +28,33 @@ mrpt::SceneMember memberOf(const team::TeamView& team, std::size_t r, mrpt::Scen
 }
 }  // namespace
 
+std::vector<core::LandmarkEstimate> landmarksOfAll(const std::vector<TeamLandmarks>& maps)
+{
+  std::vector<core::LandmarkEstimate> out;
+  std::map<int, core::LandmarkEstimate> surest;
+  for (const TeamLandmarks& map : maps)
+    for (const core::LandmarkEstimate& l : map.landmarks)
+    {
+      if (!map.identified)
+      {
+        out.push_back(l);
+        continue;
+      }
+      const auto [it, isNew] = surest.emplace(l.id, l);
+      if (!isNew && l.position.cov.trace() < it->second.position.cov.trace()) it->second = l;
+    }
+  for (const auto& [id, l] : surest) out.push_back(l);
+  return out;
+}
+
 mrpt::SceneData teamSceneOf(const std::string& title, const team::TeamView& team)
 {
   mrpt::SceneData out;
   out.title = title;
-  out.landmarks = landmarksOf(team);
+  std::vector<TeamLandmarks> maps;
+  for (const auto& robot : team.robots)
+    maps.push_back({robot.run.record.landmarks, robot.run.record.landmarksIdentified()});
+  out.landmarks = landmarksOfAll(maps);
   out.fusionScale = team::ellipseScale(team);
   bool hasTargetTruth = false;
   for (std::size_t r = 0; r < team.robots.size(); ++r)

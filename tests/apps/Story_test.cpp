@@ -43,7 +43,7 @@ SavedRun sample()
 TEST(Story, FindsTheRowOfATime)
 {
   const SavedRun run = sample();
-  const Story story(run);
+  const RobotStory story(run);
   EXPECT_DOUBLE_EQ(story.duration(), 4);
   EXPECT_EQ(story.rowAt(0), 0u);
   EXPECT_EQ(story.rowAt(1.99), 1u);
@@ -54,7 +54,7 @@ TEST(Story, FindsTheRowOfATime)
 TEST(Story, MomentsGoFromTheStartToTheEnd)
 {
   const SavedRun run = sample();
-  const Story story(run);
+  const RobotStory story(run);
   EXPECT_EQ(momentsOf(story, 0.5).size(), 9u);
   EXPECT_EQ(momentsOf(story, 0.5).back(), 4u);
   EXPECT_EQ(momentsOf(story, 3), (std::vector<std::size_t>{0, 3, 4})) << "the end is not left out";
@@ -64,7 +64,7 @@ TEST(Story, MomentsGoFromTheStartToTheEnd)
 TEST(Story, AMomentKnowsNothingOfWhatComes)
 {
   const SavedRun run = sample();
-  const Story story(run);
+  const RobotStory story(run);
   const mrpt::SceneData scene = story.at(1).scene;
   EXPECT_EQ(scene.robot.path.at(0).size(), 2u);
   EXPECT_DOUBLE_EQ(scene.robot.now->mean.x, 1);
@@ -82,13 +82,13 @@ TEST(Story, AMapThatWasNumberedAnewStandsFromTheStart)
 {
   SavedRun run = sample();
   for (eval::PairingRow& p : run.record.pairings) p.pairing.id = 1;
-  EXPECT_EQ(Story(run).at(0).scene.landmarks.size(), 2u);
+  EXPECT_EQ(RobotStory(run).at(0).scene.landmarks.size(), 2u);
 }
 
 TEST(Story, TargetsComeAndGo)
 {
   const SavedRun run = sample();
-  const Story story(run);
+  const RobotStory story(run);
   EXPECT_TRUE(story.at(3).scene.targets.at(0).now);
   EXPECT_FALSE(story.at(4).scene.targets.at(0).now);
 }
@@ -96,7 +96,7 @@ TEST(Story, TargetsComeAndGo)
 TEST(Story, ShowsWhatIsSeenNow)
 {
   const SavedRun run = sample();
-  const Story story(run);
+  const RobotStory story(run);
   const mrpt::SceneData scene = story.at(3).scene;
   ASSERT_EQ(scene.sightings.size(), 2u) << "not the rejected one";
   EXPECT_DOUBLE_EQ(scene.sightings[0][0].x, 3) << "from the robot";
@@ -110,7 +110,7 @@ TEST(Story, ShowsWhatIsSeenNow)
 TEST(Story, TheEndHasParticles)
 {
   const SavedRun run = sample();
-  const Story story(run);
+  const RobotStory story(run);
   EXPECT_EQ(story.at(4).scene.particles.size(), 1u);
   EXPECT_EQ(story.at(4).scene.landmarks.size(), 2u);
 }
@@ -118,19 +118,19 @@ TEST(Story, TheEndHasParticles)
 TEST(Story, CaptionTellsTimeAndErrorWhereItIsKnown)
 {
   const SavedRun run = sample();
-  const Story story(run);
+  const RobotStory story(run);
   EXPECT_EQ(story.at(1).caption, "t = 1.0 s   position error 0.25 m");
   EXPECT_EQ(story.at(4).caption, "t = 4.0 s   no truth for this moment");
   SavedRun untold = sample();
   untold.evaluation.robot.steps.clear();
-  EXPECT_EQ(Story(untold).at(4).caption, "t = 4.0 s");
+  EXPECT_EQ(RobotStory(untold).at(4).caption, "t = 4.0 s");
 }
 
 TEST(Story, AWallIsDrawnOnceHoweverOftenItIsSeen)
 {
   SavedRun run = sample();
   run.record.lasers = {{1, wallAhead(3)}, {1, wallAhead(3)}, {3, wallAhead(1)}};
-  const Story story(run);
+  const RobotStory story(run);
   EXPECT_EQ(story.whole().laserPoints.size(), 1u);
   EXPECT_EQ(story.at(1).scene.scanPoints.size(), 2u) << "the scan itself is whole";
 }

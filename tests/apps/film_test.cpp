@@ -6,6 +6,7 @@
 #include <slamot/math/geometry.h>
 #include <slamot/mrpt/Scene.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/videoio.hpp>
@@ -19,14 +20,14 @@ using test::slamot;
 using test::TemporaryFolder;
 
 /// A result folder, as an interrupted run might leave: a robot that drives 10 m along x in `rows` -
-/// 1 seconds, and nothing else.
-std::string halfAResult(const TemporaryFolder& folder, int rows = 11)
+/// 1 seconds, beside it by `y` [m], and nothing else.
+std::string halfAResult(const TemporaryFolder& folder, int rows = 11, int y = 0)
 {
   fs::create_directory(folder.file("result"));
   std::ofstream file(folder.file("result/robot.csv"));
   file << "t,x,y,theta,cxx,cxy,cxt,cyy,cyt,ctt\n";
   for (int i = 0; i < rows; ++i)
-    file << 50 + i << "," << 10.0 * i / (rows - 1) << ",0,0,0.001,0,0,0.001,0,0.001\n";
+    file << 50 + i << "," << 10.0 * i / (rows - 1) << "," << y << ",0,0.001,0,0,0.001,0,0.001\n";
   return folder.file("result");
 }
 
@@ -51,11 +52,12 @@ Film read(const std::string& path)
 
 /// A place's colour in a plan from above of 640 x 480 pixels, of what halfAResult() holds: the grid
 /// is whole metres about it.
-cv::Vec3i colourAt(const cv::Mat& frame, double x, double y)
+cv::Vec3i colourAt(const cv::Mat& frame, double x, double y,
+                   const std::array<double, 4>& g = {-1, 11, -1, 1})
 {
   mrpt::CameraView view;
   view.elevation = math::kPi / 2;
-  view = mrpt::fitted(view, 4.0 / 3, {-1, 11, -1, 1});
+  view = mrpt::fitted(view, 4.0 / 3, {g[0], g[1], g[2], g[3]});
   const mrpt::ScreenPoint p = mrpt::project(view, 4.0 / 3, x, y);
   const auto* pixel = frame.ptr<unsigned char>(static_cast<int>(std::lround((1 - p.y) / 2 * 480)),
                                                static_cast<int>(std::lround((p.x + 1) / 2 * 640)));
@@ -152,6 +154,65 @@ TEST(SlamotFilm, NamesWhatIsWrong)
     EXPECT_EQ(outcome.text, std::string("slamot: error: ") + fault.text + "\n");
     EXPECT_FALSE(fs::exists(folder.file("a.mp4")));
     EXPECT_FALSE(fs::exists(folder.file("partial.a.mp4")));
+  }
+}
+
+/// Two such robots as a team, the second 1 m to the left of the first.
+void halfATeam(const TemporaryFolder& folder)
+{
+  fs::create_directory(folder.file("team"));
+  for (const int robot : {0, 1})
+  {
+    halfAResult(folder, 11, robot);
+    fs::rename(folder.file("result"), folder.file(robot == 0 ? "team/a" : "team/b"));
+  }
+  folder.write("team/team.json", R"({"rule": "ci", "robots": [{"name": "a"}, {"name": "b"}]})");
+}
+
+TEST(SlamotFilm, ShowsATeamEachRobotInItsColour)
+{
+  const TemporaryFolder folder;
+  halfATeam(folder);
+  const auto outcome =
+      slamot("render team -o a.mp4 --from-above --width 640 --height 480 --fps 5 --speed 5",
+             folder.file(""));
+  if (outcome.text.find("OpenGL") != std::string::npos) GTEST_SKIP() << outcome.text;
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  const Film film = read(folder.file("a.mp4"));
+  EXPECT_EQ(film.frames, 11 + 4);
+  const std::array<double, 4> ground = {-1, 11, -1, 2};
+  EXPECT_LT(distance(colourAt(film.last, 5.5, 0, ground), 0x00, 0x72, 0xb2), 80) << "the first";
+  EXPECT_LT(distance(colourAt(film.last, 5.5, 1, ground), 0xd5, 0x5e, 0x00), 150) << "the second";
+  EXPECT_GT(distance(colourAt(film.first, 5.5, 1, ground), 0xd5, 0x5e, 0x00), 200) << "not yet";
+  for (const char* options : {"", "--time 3", "--time 3 --from-above"})
+  {
+    EXPECT_EQ(slamot(std::string("render team -o a.png ") + options, folder.file("")).status, 0);
+    EXPECT_EQ(folder.read("a.png").substr(1, 3), "PNG");
+    fs::remove(folder.file("a.png"));
+  }
+}
+
+TEST(SlamotFilm, NamesWhatATeamHasNot)
+{
+  const TemporaryFolder folder;
+  halfATeam(folder);
+  fs::create_directory(folder.file("spoilt"));
+  folder.write("spoilt/team.json", R"({"rule": 3, "robots": [{"name": "a"}]})");
+  fs::create_directory(folder.file("lost"));
+  folder.write("lost/team.json", R"({"rule": "ci", "robots": [{"name": "a"}]})");
+  for (const Fault& fault :
+       {Fault{"team -o a.mp4 --view follow", 1,
+              "command line --view follow: is of one robot, and this is a team; give a robot's "
+              "folder, or leave it out"},
+        Fault{"team -o a.mp4 --truth x", 1,
+              "command line --truth: is of one robot, and this is a team; leave it out"},
+        Fault{"spoilt -o a.mp4", 4,
+              "spoilt/team.json: is not what slamot team wrote; give a result folder"},
+        Fault{"lost -o a.mp4", 2, "lost/a: is not there; give the folder that slamot run wrote"}})
+  {
+    const auto outcome = slamot(std::string("render ") + fault.arguments, folder.file(""));
+    EXPECT_EQ(outcome.status, fault.status) << fault.arguments;
+    EXPECT_EQ(outcome.text, std::string("slamot: error: ") + fault.text + "\n");
   }
 }
 

@@ -115,6 +115,7 @@ void SceneBuilder::addTeam()
     // What overlaps lies on top of each other, not at one height, where it would flicker.
     const double lift = 0.4 * u() * static_cast<double>(i) / static_cast<double>(data_.team.size());
     addPath(member.target, colour, 0.25, lift);
+    if (member.target.now) addTargetBody(member.target, colour, lift);
     addTruth(member.robot, kTruth);
     addTruth(member.target, kTruth);
     Mesh ellipses(colour);
@@ -125,6 +126,16 @@ void SceneBuilder::addTeam()
     }
     if (!member.fusions.empty()) insert(ellipses.object(member.robot.name + " fusions"));
   }
+}
+
+/// Where a robot of a team believes the target to be: small, since others believe it too.
+void SceneBuilder::addTargetBody(const SceneTrack& target, const Colour& colour, double lift)
+{
+  const Pose2D& now = target.now->mean;
+  Mesh body(colour);
+  body.prism({now.x, now.y}, dart(now, 1.8 * u()), z(kBodyLayer) + lift,
+             z(kBodyLayer) + lift + 0.8 * u());
+  insert(body.object(target.name));
 }
 
 Gaussian<Point2D> SceneBuilder::scaled(const Gaussian<Point2D>& g) const

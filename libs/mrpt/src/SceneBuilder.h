@@ -23,6 +23,7 @@ class SceneBuilder
 
   [[nodiscard]] double u() const { return frame_.unit; }
   [[nodiscard]] double z(int layer) const { return 0.5 * u() * layer; }
+  void addTargetBody(const SceneTrack& target, const Colour& colour, double lift);
   [[nodiscard]] Gaussian<Point2D> scaled(const Gaussian<Point2D>& g) const;
   void insert(const slamot_viz::CRenderizable::Ptr& object);
 
