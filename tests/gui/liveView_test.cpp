@@ -59,6 +59,29 @@ TEST(RunView, GoesOnWhenItsWindowIsClosed)
   EXPECT_EQ(run->text().find("close the window"), std::string::npos) << "it was closed before";
 }
 
+// The user drags all of the map out of view, with the right button.
+TEST(RunView, StaysWhereTheUserLooks)
+{
+  if (const std::string missing = Screen::missing(); !missing.empty()) GTEST_SKIP() << missing;
+  constexpr long kLegendsShare = 400;  // of pixels in the robot's colour
+  Screen screen;
+  const auto run = screen.start(runWithView(screen, "--set rbpf-slamot.particles=20000"), "run");
+  ASSERT_TRUE(screen.act("search --sync --onlyvisible --name '^slamot'")) << run->text();
+  ASSERT_TRUE(screen.shows(kRobot, 700)) << run->text();
+  std::string drags;  // not faster than the window takes them
+  for (int i = 0; i < 5; ++i)
+    drags +=
+        " mousemove 700 300 sleep 0.1 mousedown 3 sleep 0.1 mousemove 700 320 sleep 0.1 "
+        "mousemove 700 500 sleep 0.1 mousemove 700 700 sleep 0.1 mouseup 3";
+  ASSERT_TRUE(screen.act(drags));
+  const auto isGone = [&] { return screen.picture().count(kRobot) < kLegendsShare; };
+  EXPECT_TRUE(isGone());
+  EXPECT_EQ(run->text().find("close the window"), std::string::npos) << "the run was to go on";
+  ASSERT_TRUE(test::comes([&] { return run->says("close the window"); }, 120)) << run->text();
+  EXPECT_TRUE(isGone()) << "the view has gone back";
+  close(screen, *run);
+}
+
 TEST(RunView, WithoutADisplayIsAnErrorThatSaysSo)
 {
   const test::TemporaryFolder folder;

@@ -6,9 +6,10 @@
 
 #include <X11/Xlib.h>
 
+#include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include SLAMOT_SCENE_HEADER
 
@@ -83,26 +84,36 @@ class Window3D : public LiveView
     window_->repaint();
   }
 
-  /// Where all is in view, until the user looks elsewhere.
+  /// Where the window's camera is and looks: place [m], azimuth, elevation [deg], distance [m].
+  using Aim = std::array<float, 6>;
+
+  [[nodiscard]] Aim aimNow() const
+  {
+    Aim a{};
+    window_->getCameraPointingToPoint(a[0], a[1], a[2]);
+    a[3] = window_->getCameraAzimuthDeg(), a[4] = window_->getCameraElevationDeg();
+    a[5] = window_->getCameraZoom();
+    return a;
+  }
+
+  /// Where all is in view, until the user has looked elsewhere: from then on where the user looks.
   void aim(const slamot_viz::CCamera& camera)
   {
-    if (aimed_ && std::abs(window_->getCameraZoom() - zoom_) > 1e-3f * zoom_) return;
-    if (aimed_ && std::abs(window_->getCameraAzimuthDeg() - camera.getAzimuthDegrees()) > 0.1f)
-      return;
-    aimed_ = true;
-    zoom_ = camera.getZoomDistance();
+    if (aimed_ && aimNow() != *aimed_) isUsers_ = true;
+    if (isUsers_) return;
     window_->setCameraPointingToPoint(camera.getPointingAtX(), camera.getPointingAtY(), 0);
     window_->setCameraAzimuthDeg(camera.getAzimuthDegrees());
     window_->setCameraElevationDeg(camera.getElevationDegrees());
-    window_->setCameraZoom(zoom_);
+    window_->setCameraZoom(camera.getZoomDistance());
+    aimed_ = aimNow();
   }
 
   const core::Filter& filter_;
   mrpt::LiveScene scene_;
   ::mrpt::gui::CDisplayWindow3D::Ptr window_;
   Clock::time_point drawn_;
-  bool aimed_ = false;
-  float zoom_ = 0;
+  std::optional<Aim> aimed_;  // as it was left
+  bool isUsers_ = false;
 };
 }  // namespace
 }  // namespace slamot::window
