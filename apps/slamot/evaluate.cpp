@@ -15,6 +15,7 @@
 #include "Command.h"
 #include "laserMaps.h"
 #include "savedRun.h"
+#include "scanMapAlong.h"
 
 namespace slamot::apps
 {
@@ -26,7 +27,8 @@ using core::ExitStatus;
 
 struct EvaluateCommand
 {
-  std::string result, truth, align, output;
+  CommonOptions common;  // of which only plugins make sense here
+  std::string result, truth, scans, align, output;
   std::vector<double> leverArm;
   bool json = false;
   eval::EvaluationOptions options;
@@ -83,11 +85,22 @@ eval::Record recordIn(const std::string& folder)
   return record;
 }
 
+// With scans there is something to tell without a truth too.
+eval::Truth truthOf(const EvaluateCommand& o)
+{
+  if (o.scans.empty() || !o.truth.empty()) return truthOf(o.result, o.truth);
+  return findTruth(o.result, o.scans).value_or(eval::Truth());
+}
+
 // The robots of a team share one map frame: they are aligned together, once.
 int evaluateTeam(EvaluateCommand o, const std::vector<std::string>& names)
 {
   if (!o.truth.empty() && names.size() > 1)
     throw Error(ExitStatus::kConfig, "command line --truth",
+                "is of one robot, but " + o.result + " is of a team",
+                "leave it out, or evaluate a robot's folder in it");
+  if (!o.scans.empty())
+    throw Error(ExitStatus::kConfig, "command line --scans",
                 "is of one robot, but " + o.result + " is of a team",
                 "leave it out, or evaluate a robot's folder in it");
   std::vector<eval::Record> records;
@@ -115,6 +128,7 @@ int evaluateTeam(EvaluateCommand o, const std::vector<std::string>& names)
 
 int evaluate(EvaluateCommand o)
 {
+  o.common.loadPlugins();
   const bool isFolder = fs::is_directory(o.result);
   if (!isFolder && !fs::exists(o.result))
     throw Error(ExitStatus::kUnreadable, o.result, "is not there",
@@ -122,10 +136,11 @@ int evaluate(EvaluateCommand o)
   if (const auto names = team::robotsIn(o.result); !names.empty())
     return evaluateTeam(std::move(o), names);
   const eval::Record record = isFolder ? recordIn(o.result) : results::loadTumRecord(o.result);
-  eval::Truth truth = truthOf(o.result, o.truth);
+  eval::Truth truth = truthOf(o);
   if (!isFolder) takeTargetForRobot(o.result, truth);
   o.options = optionsOf(o);
-  const eval::Evaluation evaluation = eval::evaluate(record, truth, o.options);
+  eval::Evaluation evaluation = eval::evaluate(record, truth, o.options);
+  if (!o.scans.empty()) evaluation.scanMap = scanMapAlong(record, o.scans, o.result);
   tell(o, results::evaluationJson(record, evaluation), tableOf(o.result, record, evaluation));
   return static_cast<int>(ExitStatus::kDone);
 }
@@ -143,8 +158,17 @@ void addEvaluate(CLI::App& app, int& status)
       ->type_name("RESULT");
   command
       ->add_option("--truth", o->truth,
-                   "X.truth or X.rawlog (default: of the log that the result is of)")
+                   "X.truth or X.rawlog (default: of the log that the result, or --scans, is of)")
       ->type_name("PREFIX");
+  command
+      ->add_option("--scans", o->scans,
+                   "Draw this log's laser scans along the path, and tell how sharp their map is")
+      ->type_name("X.rawlog");
+  command
+      ->add_option("-p,--plugin", o->common.plugins,
+                   "Load classes of --scans from a library; repeatable")
+      ->type_name("LIB.so")
+      ->allow_extra_args(false);
   command->add_option("--align", o->align, "How to lay the map over the truth (default as the run)")
       ->check(CLI::IsMember(eval::alignNames()));
   command

@@ -261,6 +261,7 @@ TEST(SlamotEvaluate, TakesATeamsFolderWithOneAlignmentForAll)
   EXPECT_EQ(all["t.robot0"]["align"], "rigid");
   EXPECT_EQ(all["t.robot0"]["truth_from_map"], all["t.robot1"]["truth_from_map"]);
   expectOneErrorLine(place.slamot("evaluate out --truth t.robot0.truth"), 1, "--truth");
+  expectOneErrorLine(place.slamot("evaluate out --scans t.robot0.rawlog"), 1, "--scans");
 }
 
 TEST(SlamotRun, ALoneRobotOfAMixedTeamNeedsToBeToldItsFilter)

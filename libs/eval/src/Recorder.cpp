@@ -5,14 +5,14 @@
 #include <cmath>
 #include <set>
 
+#include "movedOn.h"
+
 namespace slamot::eval
 {
 namespace
 {
-constexpr double kSameInstant = 2e-9;               // [s]: result files print nanoseconds
-constexpr double kApart = 1e-6;                     // [s], between steps that a log gives one time
-constexpr double kLaserDistance = 0.1;              // [m]
-constexpr double kLaserTurn = math::degToRad(5.0);  // [rad]
+constexpr double kSameInstant = 2e-9;  // [s]: result files print nanoseconds
+constexpr double kApart = 1e-6;        // [s], between steps that a log gives one time
 
 StepRow diagnosticsOf(const core::Step& step, const core::Update& update)
 {
@@ -159,12 +159,9 @@ void Recorder::addLasers(const core::Step& step)
 {
   if (!options_.keepLasers || step.lasers.empty() || record_.rows.empty()) return;
   const std::size_t row = record_.rows.size() - 1;
-  if (!record_.lasers.empty() && record_.lasers.back().row < row)
-  {
-    const Pose2D moved = math::between(record_.rows[record_.lasers.back().row].robot.mean,
-                                       record_.rows[row].robot.mean);
-    if (std::hypot(moved.x, moved.y) < kLaserDistance && std::abs(moved.phi) < kLaserTurn) return;
-  }
+  if (!record_.lasers.empty() && record_.lasers.back().row < row &&
+      !movedOn(record_.rows[record_.lasers.back().row].robot.mean, record_.rows[row].robot.mean))
+    return;
   for (const auto& scan : step.lasers) record_.lasers.push_back({row, scan});
 }
 
