@@ -58,7 +58,7 @@ struct Tally
 
 /// All steps of a world; none if interrupted.
 std::optional<Tally> writeSteps(sim::World& world, mrpt::RawlogWriter& writer,
-                                const sim::Scenario& scenario, const ImagesBeside& images,
+                                const sim::RobotSetup& robot, const ImagesBeside& images,
                                 const SimulateOptions& o)
 {
   const ImagesBeside* const beside = o.images == "beside" ? &images : nullptr;
@@ -68,7 +68,7 @@ std::optional<Tally> writeSteps(sim::World& world, mrpt::RawlogWriter& writer,
     if (interrupted) return std::nullopt;
     std::vector<std::shared_ptr<::mrpt::obs::CObservation>> pictures;
     if (const auto picture = world.picture())
-      pictures.push_back(pictureObservation(*picture, *scenario.camera, step->time, beside));
+      pictures.push_back(pictureObservation(*picture, *robot.camera, step->time, beside));
     writer.write(*step, pictures);
     ++out.steps;
     out.images += pictures.size();
@@ -96,7 +96,7 @@ ExitStatus simulateOne(const sim::Scenario& scenario, const std::string& output,
   const std::string path = rawlogOutput(output);
   ImagesBeside images(path);
   mrpt::RawlogWriter writer = openLog(path, world, o);
-  const auto tally = writeSteps(world, writer, scenario, images, o);
+  const auto tally = writeSteps(world, writer, scenario.robots[0], images, o);
   if (!tally) return ExitStatus::kInterrupted;
   results::saveTruth(results::truthFolder(path), world.truth());
   images.place();
@@ -117,7 +117,8 @@ ExitStatus simulateTeam(const sim::Scenario& scenario, const std::string& output
   {
     sim::World world(scenario, o.common.seed, kRaw, robot);
     mrpt::RawlogWriter writer = openLog(logs.partOf(robot), world, o);
-    const auto tally = writeSteps(world, writer, scenario, images[std::size_t(robot)], o);
+    const auto tally = writeSteps(world, writer, scenario.robots[std::size_t(robot)],
+                                  images[std::size_t(robot)], o);
     if (!tally) return ExitStatus::kInterrupted;
     writer.close();
     logs.add(robot, world.truth());

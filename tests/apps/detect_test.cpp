@@ -1,6 +1,7 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <slamot/mrpt/CObservationColorBlobs.h>
 #include <slamot/mrpt/RawlogSource.h>
+#include <slamot/results/TruthFiles.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -93,6 +94,33 @@ class SlamotDetect : public ::testing::Test
     }
     EXPECT_EQ(seen, scans);
     EXPECT_GT(sightings, 4 * scans);
+  }
+
+  /// Every look must have seen the other robot where it was, and no post be taken where it stood.
+  static void expectMate(const std::vector<core::Step>& all, const eval::Trajectory& own,
+                         const eval::Trajectory& mate)
+  {
+    std::size_t ranged = 0;
+    for (const core::Step& step : all)
+    {
+      if (!step.blobs) continue;
+      const Pose2D at = math::between(own.at(step.time)->pose, mate.at(step.time)->pose);
+      ASSERT_EQ(step.blobs->blobs.size(), 1u) << step.time;
+      const core::Blob& b = step.blobs->blobs[0];
+      EXPECT_EQ(b.label, "robot");
+      EXPECT_NEAR(math::wrapToPi(b.bearing - std::atan2(at.y, at.x)), 0, 5 * b.bearingStd);
+      if (b.range)
+      {
+        EXPECT_NEAR(*b.range, std::hypot(at.x, at.y), 5 * b.rangeStd) << step.time;
+      }
+      ranged += b.range ? 1 : 0;
+      for (const core::Sighting& s : step.landmarks->sightings)
+        EXPECT_GT(
+            std::hypot(s.range * std::cos(s.bearing) - at.x, s.range * std::sin(s.bearing) - at.y),
+            0.3)
+            << step.time;
+    }
+    EXPECT_GE(ranged, 36u);
   }
 
   const fs::path folder_ =
@@ -348,6 +376,44 @@ TEST_F(SlamotDetect, TheSimulatedPioneersAreTrackedFromImagesAndScans)
   const auto again = jsonOf("again.json")["scan_map"];
   for (const char* key : {"path_entropy", "mean_map_entropy", "odometry_mean_map_entropy"})
     EXPECT_NEAR(again[key].get<double>(), written[key].get<double>(), 1e-6) << key;
+}
+
+// Each sees the other's body in its own raw data, and the team fuses what they tell of it.
+TEST_F(SlamotDetect, TwoSimulatedPioneersSeeEachOtherAndAreATeam)
+{
+  const std::string configs = "'" SLAMOT_SOURCE_DIR "/config-ini/";
+  const auto succeed = [&](const std::string& arguments)
+  {
+    const Outcome o = slamot(arguments, folder_.string());
+    EXPECT_EQ(o.status, 0) << o.text;
+    return o.text;
+  };
+  succeed("simulate " + configs + "sim.two-pioneers.ini' -o raw.rawlog --set world.steps=80");
+  std::map<int, eval::Truth> truths;
+  for (int robot = 0; robot < 2; ++robot)
+  {
+    const std::string name = ".robot" + std::to_string(robot);
+    const std::string text = succeed("detect " + configs + "detect.robots.ini' raw" + name +
+                                     ".rawlog -o seen" + name + ".rawlog");
+    EXPECT_NE(text.find("40 blobs in 40 images"), std::string::npos) << text;
+    fs::copy(path("raw" + name + ".truth"), path("seen" + name + ".truth"));
+    truths[robot] = results::loadTruth(path("raw" + name + ".truth"));
+  }
+  for (int robot = 0; robot < 2; ++robot)
+    expectMate(steps("seen.robot" + std::to_string(robot) + ".rawlog"), truths[robot].robot,
+               truths[1 - robot].robot);
+  succeed("team " + configs + "team-pioneers.ini' seen.robot0.rawlog seen.robot1.rawlog -o team");
+  for (const char* robot : {"seen.robot0", "seen.robot1"})
+  {
+    std::ifstream file(path(std::string("team/") + robot + "/summary.json"));
+    const auto summary = nlohmann::json::parse(file);
+    EXPECT_LT(summary["robot"]["position_rmse_m"], 0.2) << robot;
+    EXPECT_GT(summary["landmarks"]["mapped"], 5) << robot;
+    std::ifstream messages(path(std::string("team/") + robot + "/fusions.csv"));
+    std::size_t lines = 0;
+    for (std::string line; std::getline(messages, line);) ++lines;
+    EXPECT_GT(lines, 5u) << robot;
+  }
 }
 
 TEST_F(SlamotDetect, TakesLandmarksOfAPlugin)

@@ -26,6 +26,27 @@ Scenario scenario(const std::string& world, const std::string& more = {})
   return out;
 }
 
+/// Two robots that stand still, 4 m apart: the second is ahead of the first, looks back, and is
+/// red.
+Scenario twoRobots(const std::string& more)
+{
+  const std::string still =
+      "motion = waypoints\nwaypoint_reached_m = 0.1\nspeed_mps = 0\nstart = given\n"
+      "v_std_mps = 0\nomega_std_radps = 0\nstart_theta_deg = 0\n";
+  core::Config config = core::Config::parse(
+      "[world]\nwidth_m = 40\nheight_m = 40\ndt_s = 0.1\nsteps = 6\nsightings = false\n"
+      "walls_m = 18, 0, 18, 40,  2, 0, 2, 40\n"
+      "[robot_0]\nstart_x_m = 10\nstart_y_m = 10\nwaypoints_m = 30, 10, 31, 10\n" +
+          still + "radius_m = 0.25\nheight_m = 0.6\nhue_deg = 240\n" +
+          "[robot_1]\nstart_x_m = 14\nstart_y_m = 10.5\nwaypoints_m = 30, 10.5, 31, 10.5\n" +
+          still +
+          "[landmark_sensor]\nrange_max_m = 10\nrange_std_m = 0.1\nbearing_std_rad = 0.01\n" + more,
+      "test");
+  const Scenario out = Scenario::from(config);
+  config.requireAllRead();
+  return out;
+}
+
 const std::string kLaser = "[laser]\nx_m = 0.5\nbeams = 361\nrange_max_m = 20\nrange_std_m = 0\n";
 const std::string kCamera = "[camera]\nz_m = 0.5\npixel_noise = 0\n";
 const std::string kTarget =
@@ -41,21 +62,21 @@ core::LaserScan scanOf(const Scenario& s)
   return *step->lasers.at(0);
 }
 
-/// Where the orange pixels of an image are, and how many.
+/// Where the reddish or bluish pixels of an image are, and how many.
 struct Orange
 {
   double u = 0, v = 0;
   int n = 0;
   int brightest = 0;
 };
-Orange orangeOf(const Picture& p)
+Orange orangeOf(const Picture& p, bool blue = false)
 {
   Orange out;
   for (int v = 0; v < p.height; ++v)
     for (int u = 0; u < p.width; ++u)
     {
       const auto* c = &p.bgr[3 * static_cast<std::size_t>(v * p.width + u)];
-      if (c[2] < c[0] + 60) continue;
+      if (blue ? c[0] < c[2] + 60 : c[2] < c[0] + 60) continue;
       ++out.n;
       out.u += u, out.v += v;
       out.brightest = std::max<int>(out.brightest, c[2]);
@@ -160,6 +181,64 @@ TEST(RawSensors, ReportAtTheirOwnRatesAndAlone)
       EXPECT_EQ(picture->bgr, again.picture()->bgr);
     }
   }
+}
+
+TEST(RawSensors, ARobotsScanHasTheOthersBody)
+{
+  const Scenario s = twoRobots(kLaser + "[laser_1]\nx_m = -0.5\nyaw_deg = 180\nbeams = 361\n" +
+                               "range_max_m = 20\nrange_std_m = 0\n");
+  for (int robot = 0; robot < 2; ++robot)
+  {
+    World world(s, 1, World::Sightings::kAsRead, robot);
+    const auto step = world.next();
+    ASSERT_EQ(step->lasers.size(), 1u);
+    const core::LaserScan& scan = *step->lasers[0];
+    // From the laser, half a metre towards the other: 3.5 m along its axis, and half a metre left.
+    const double distance = std::hypot(3.5, 0.5), radius = robot == 0 ? 0.2 : 0.25;
+    int beams = 0;
+    for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+    {
+      const double a = scan.angleMin + double(i) * scan.angleStep - std::atan2(0.5, 3.5);
+      if (std::abs(distance * std::sin(a)) >= radius - 1e-6 || std::cos(a) < 0) continue;
+      ++beams;
+      const double across = distance * std::sin(a);
+      EXPECT_NEAR(scan.ranges[i],
+                  distance * std::cos(a) - std::sqrt(radius * radius - across * across), 1e-4)
+          << robot << " " << i;
+    }
+    EXPECT_GE(beams, 13);
+    EXPECT_NEAR(scan.ranges[180], robot == 0 ? 7.5 : 11.5, 1e-4) << "the wall beside it";
+  }
+}
+
+TEST(RawSensors, ARobotsPictureHasTheOthersBodyInItsColour)
+{
+  const Scenario s = twoRobots(kCamera + "[camera_1]\nz_m = 0.5\nyaw_deg = 180\npixel_noise = 0\n");
+  for (int robot = 0; robot < 2; ++robot)
+  {
+    World world(s, 1, World::Sightings::kAsRead, robot);
+    ASSERT_TRUE(world.next());
+    const bool blue = robot == 1;  // what robot 1 sees is robot 0
+    EXPECT_EQ(orangeOf(*world.picture(), !blue).n, 0);
+    const Orange seen = orangeOf(*world.picture(), blue);
+    const double radius = blue ? 0.25 : 0.2, height = blue ? 0.6 : 0.4;
+    const double bearing = std::atan2(0.5, 4), distance = std::hypot(4, 0.5);
+    const double half = std::asin(radius / distance);
+    EXPECT_NEAR(seen.u, 319.5 - 250 * (std::tan(bearing + half) + std::tan(bearing - half)), 1);
+    const double area = 2 * radius / distance * 500 * height / (4 - radius) * 500;
+    EXPECT_NEAR(seen.n, area, 0.1 * area);
+  }
+}
+
+// One section for all, unless a robot has its own.
+TEST(RawSensors, AreTheTeamsOrARobotsOwn)
+{
+  const Scenario s = twoRobots(kLaser + "[camera_1]\nz_m = 0.5\n");
+  EXPECT_EQ(s.robots[0].laser->pose, s.robots[1].laser->pose);
+  EXPECT_FALSE(s.robots[0].camera);
+  EXPECT_TRUE(s.robots[1].camera);
+  EXPECT_THROW(twoRobots("[camera_2]\nz_m = 0.5\n"), core::Error);
+  EXPECT_THROW(scenario("", "[laser_0]\nbeams = 3\n"), core::Error);  // there is no team
 }
 
 TEST(RawSensors, WrongKeysAreErrors)

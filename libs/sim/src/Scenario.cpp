@@ -80,9 +80,14 @@ std::vector<Wall> readWalls(core::Params& p)
   return out;
 }
 
+// A team's robot may have a section of its own in place of the one for all.
 template <class Setup>
-std::optional<Setup> readRaw(core::Config& config, const std::string& section)
+std::optional<Setup> readRaw(core::Config& config, const std::string& kind,
+                             const std::string& robotSection)
 {
+  const auto number = numberOf(robotSection, "robot_");
+  const std::string own = number ? kind + "_" + std::to_string(*number) : kind;
+  const std::string section = config.has(own) ? own : kind;
   if (!config.has(section)) return std::nullopt;
   core::Params p(config, section);
   return Setup::from(p);
@@ -128,8 +133,11 @@ Scenario Scenario::from(core::Config& config)
   s.mateSensor = readMateSensor(config);
   s.sightings = world.flag("sightings", true);
   s.walls = readWalls(world);
-  s.laser = readRaw<LaserSetup>(config, "laser");
-  s.camera = readRaw<CameraSetup>(config, "camera");
+  for (RobotSetup& robot : s.robots)
+  {
+    robot.laser = readRaw<LaserSetup>(config, "laser", robot.section);
+    robot.camera = readRaw<CameraSetup>(config, "camera", robot.section);
+  }
   s.targetSensor = readTargetSensor(config, !s.targets.empty() || s.mateSensor);
   return s;
 }

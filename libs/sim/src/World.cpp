@@ -35,6 +35,7 @@ struct World::Impl
   void scanMates(core::Step& out) const;
   void scanBlobs(core::Step& out) const;
   [[nodiscard]] Surroundings surroundings() const;
+  [[nodiscard]] const RobotSetup& setup() const { return scenario.robots[std::size_t(robot)]; }
   void recordPoses();
 
   Scenario scenario;
@@ -153,9 +154,9 @@ std::optional<core::Step> World::next()
   out.time = w.time();
   w.recordPoses();
   const auto step = static_cast<std::uint64_t>(w.bodies.step());
-  if (w.scenario.laser && w.bodies.step() % w.scenario.laser->every == 0)
+  if (const auto& laser = w.setup().laser; laser && w.bodies.step() % laser->every == 0)
     out.lasers.push_back(std::make_shared<core::LaserScan>(
-        castScan(w.surroundings(), w.bodies.robot(w.robot), *w.scenario.laser,
+        castScan(w.surroundings(), w.bodies.robot(w.robot), *laser,
                  stream(w.seed, Purpose::kLaser, step, robotKey(w.robot)))));
   if (w.scenario.sightings && w.bodies.step() % w.scenario.scanEvery == 0)
   {
@@ -169,9 +170,10 @@ std::optional<Picture> World::picture() const
 {
   const Impl& w = *impl_;
   const int step = w.bodies.step();
-  if (!w.scenario.camera || step == 0 || step % w.scenario.camera->every != 0) return std::nullopt;
+  const auto& camera = w.setup().camera;
+  if (!camera || step == 0 || step % camera->every != 0) return std::nullopt;
   return drawPicture(
-      w.surroundings(), w.bodies.robot(w.robot), *w.scenario.camera, w.bodies.elapsed(),
+      w.surroundings(), w.bodies.robot(w.robot), *camera, w.bodies.elapsed(),
       stream(w.seed, Purpose::kCamera, static_cast<std::uint64_t>(step), robotKey(w.robot)));
 }
 

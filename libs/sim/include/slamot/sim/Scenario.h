@@ -32,6 +32,8 @@ struct RobotSetup
   double followGain = 2;        ///< speed by distance [1/s]
   double followSpeedRatio = 1;  ///< its top speed by the target's
   Look look{0.2, 0.4, 355, 0.85, 0.8};  ///< to the others' lasers and cameras
+  std::optional<LaserSetup> laser;
+  std::optional<CameraSetup> camera;
 };
 
 struct TargetSetup
@@ -75,7 +77,7 @@ struct LandmarkSetup
 /// A world to simulate.  Sections [world]; [robot], or [robot_0], [robot_1], ... for a team;
 /// [target] or [target_<id>]; [landmark_sensor]; [target_sensor], which a world without targets and
 /// mates may leave out; [mate_sensor] if robots see one another; [laser] and [camera], if there are
-/// such.
+/// such, or [laser_0], [camera_1], ... in their place for one robot of a team.
 /// config-ini/sim.experiment1.ini comments every key.
 struct Scenario
 {
@@ -92,8 +94,6 @@ struct Scenario
   std::optional<SensorSetup> mateSensor;    ///< for the other robots; absent: not seen
   bool sightings = true;  ///< whether these three report; false: laser and camera alone
   std::vector<Wall> walls;
-  std::optional<LaserSetup> laser;    ///< of every robot
-  std::optional<CameraSetup> camera;  ///< likewise
 
   /// Reads the sections; config.requireAllRead() then finds what nobody knows.
   /// \throws core::Error (kConfig).
