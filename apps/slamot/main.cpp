@@ -3,6 +3,7 @@
 #include <slamot/core/Error.h>
 #include <slamot/core/version.h>
 #include <slamot/filters/registerAll.h>
+#include <slamot/scans/registerAll.h>
 
 #include <charconv>
 #include <csignal>
@@ -115,6 +116,7 @@ int main(int argc, char** argv)
   try
   {
     slamot::filters::registerAll();
+    slamot::scans::registerAll();
     return runCommand(argc, argv);
   }
   catch (const slamot::core::Error& e)

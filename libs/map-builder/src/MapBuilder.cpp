@@ -13,6 +13,7 @@
 #include <slamot/mrpt/MapBuilder.h>
 #include <slamot/mrpt/Renderer.h>
 #include <slamot/results/RunPlan.h>
+#include <slamot/scans/registerAll.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,6 +147,7 @@ struct MapBuilder::Parts
 MapBuilder::MapBuilder(core::Config config, const core::Starts& starts, int threads)
 {
   filters::registerAll();
+  scans::registerAll();
   parts_ = std::make_unique<Parts>(std::move(config), starts, threads);
 }
 

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <slamot/math/geometry.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace slamot::scans
+{
+/// A bit of wall, or whatever stood around a cell of a map.
+struct Surface
+{
+  Point2D centre;        ///< [m]
+  Vector2 normal{1, 0};  ///< of a wall
+  bool isWall = false;   ///< else only that something is near its centre
+  double variance = 0;   ///< of points across the wall, or of each coordinate [m²]
+};
+
+/// What scans that were taken near each other saw, prepared for matching: for every cell the
+/// nearest surface, and how likely a beam ends there.  Likelihood fields: Thrun, Burgard, Fox 2005,
+/// section 6.4; their maxima over blocks of cells: Olson, "Real-time correlative scan matching",
+/// 2009.
+class LocalMap
+{
+ public:
+  static constexpr double kCell = 0.05;  ///< [m]
+  static constexpr int kLevels = 6;      ///< of maxima: blocks of 1, 2, 4 ... cells
+  static constexpr double kHit = 255;    ///< a cell's value where something was seen
+
+  /// \param points [m]; those farther than `farthest` from the origin are left out.
+  LocalMap(const std::vector<Point2D>& points, double farthest);
+
+  [[nodiscard]] bool empty() const { return surfaces_.empty(); }
+
+  /// The cell that a point lies in; may lie outside the map.
+  [[nodiscard]] std::array<int, 2> cellOf(const Point2D& p) const
+  {
+    return {static_cast<int>(std::floor((p.x - origin_.x) / kCell)),
+            static_cast<int>(std::floor((p.y - origin_.y) / kCell))};
+  }
+  /// The largest value of the cells x .. x + 2^level - 1, y likewise, or a bit more; 0 outside.
+  [[nodiscard]] int bound(int level, int x, int y) const
+  {
+    const Level& l = levels_[static_cast<std::size_t>(level)];
+    const int i = x >> level, j = y >> level;
+    if (i < -1 || j < -1 || i >= l.width || j >= l.height) return 0;
+    return l.value[l.index(i, j)];
+  }
+  /// Nothing is farther off than some cells, if there is one.
+  [[nodiscard]] const Surface* nearest(const Point2D& p) const;
+
+ private:
+  /// Values of blocks, with a margin of zeros around them.
+  struct Level
+  {
+    Level() = default;
+    Level(int w, int h)
+        : width(w),
+          height(h),
+          value(static_cast<std::size_t>(w + 2) * static_cast<std::size_t>(h + 2))
+    {
+    }
+    [[nodiscard]] std::size_t index(int x, int y) const
+    {
+      return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) +
+             static_cast<std::size_t>(x + 1);
+    }
+    int width = 0, height = 0;  ///< in blocks
+    std::vector<std::uint8_t> value;
+  };
+  struct Sums;
+  void enclose(const std::vector<Point2D>& points);
+  std::vector<Sums> addUp(const std::vector<Point2D>& points);
+  void fitSurfaces(const std::vector<Sums>& cells);
+  Level spread(const std::vector<Sums>& cells);
+  static Level halved(const Level& fine);
+  static void coverNext(Level& level);
+  void buildLevels(Level blocks);
+  [[nodiscard]] std::size_t index(int x, int y) const
+  {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  Point2D origin_;
+  int width_ = 0, height_ = 0;         // in cells
+  std::vector<std::int32_t> nearest_;  // by cell: place in surfaces_, or -1
+  std::vector<Surface> surfaces_;
+  std::array<Level, kLevels> levels_;
+};
+}  // namespace slamot::scans

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <slamot/math/gaussian.h>
+#include <slamot/scans/LocalMap.h>
+
+namespace slamot::scans
+{
+/// What a match is worth, and how far one is looked for.
+struct MatchSettings
+{
+  double rangeStd;       ///< of a point about its wall [m]
+  double inflation;      ///< of the match's covariance: neighbouring beams err alike
+  double floorPosition;  ///< least deviation of a match [m]
+  double floorHeading;   ///< [rad]
+  double leastScore;     ///< mean likelihood of points below which nothing matched, 0 to 1
+};
+
+/// How far a match is looked for around what is expected.
+struct MatchReach
+{
+  double leastRadius, mostRadius;  ///< [m]
+  double leastTurn, mostTurn;      ///< [rad]
+};
+
+struct Match
+{
+  bool matched = false;
+  Gaussian<Pose2D>
+      pose;  ///< of the scan and what was expected together; the latter, if not matched
+  Gaussian<Pose2D> alone;  ///< of the scan alone: long where nothing stops it, as along a corridor
+  double score = 0;        ///< mean likelihood of the points where the search ended, 0 to 1
+  double explained = 0;    ///< share of points on surfaces after all
+};
+
+/// Where a scan was taken, by a map.
+///
+/// MRPT's mrpt::slam::CICP was measured on the same problem: see doc/scan-slam.md.
+class ScanMatcher
+{
+ public:
+  explicit ScanMatcher(const MatchSettings& settings) : settings_(settings) {}
+
+  /// \param points of the scan [m], in the robot's frame.
+  /// \param expected where the robot should be, in the map's frame: three of its deviations are
+  /// searched, within `reach`.
+  [[nodiscard]] Match match(const LocalMap& map, const std::vector<Point2D>& points,
+                            const Gaussian<Pose2D>& expected, const MatchReach& reach) const;
+
+ private:
+  MatchSettings settings_;
+};
+}  // namespace slamot::scans

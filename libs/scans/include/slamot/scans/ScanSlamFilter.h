@@ -1,0 +1,27 @@
+#pragma once
+
+#include <slamot/core/FilterRegistry.h>
+#include <slamot/scans/ScanSlam.h>
+
+namespace slamot::scans
+{
+/// `scan-slam`: the robot's pose and path by odometry and laser scans; no landmarks, no targets.
+class ScanSlamFilter : public core::Filter
+{
+ public:
+  ScanSlamFilter(core::Params& params, const core::FilterContext& context);
+
+  core::Update process(const core::Step& step) override;
+  [[nodiscard]] core::Estimate estimate() const override { return estimate_; }
+  [[nodiscard]] std::vector<core::PathPose> path() const override { return slam_.path(); }
+
+  [[nodiscard]] const ScanSlam& slam() const { return slam_; }
+
+ private:
+  ScanSlamFilter(const Settings& settings, const core::FilterContext& context);
+
+  double maxRange_;
+  ScanSlam slam_;
+  core::Estimate estimate_;
+};
+}  // namespace slamot::scans
