@@ -10,8 +10,8 @@ namespace
 constexpr int kReach = 6;          // cells: farther from everything, a point has no surface
 constexpr int kNeighbourhood = 5;  // cells around one that its surface is fitted to
 constexpr double kFieldStd = 0.1;  // [m]: of the likelihood
-constexpr double kFlat = 0.15;     // a wall's deviation across it, by that along it
-constexpr double kFewest = 4;      // points of a wall
+constexpr double kFlat = 0.3;      // a wall's deviation across it, by that along it
+constexpr double kFewest = 4;      // points of a surface
 
 template <class T>
 T squared(T v)
@@ -101,9 +101,12 @@ void LocalMap::fitSurfaces(const std::vector<Sums>& cells)
     const double half = (a + c) / 2, root = std::hypot((a - c) / 2, b);
     const double across = std::max(0.0, half - root), along = half + root;
     Surface s;
-    s.isWall = sum.n >= kFewest && across < squared(kFlat) * along;
+    // A lone point may lie anywhere along a wall that was seen at a slant: it tells nothing.
+    s.isKnown = sum.n >= kFewest;
+    s.isWall = s.isKnown && across < squared(kFlat) * along;
     s.centre = {origin_.x + mx, origin_.y + my};
     s.variance = across;
+    s.tilt = across / (sum.n * along + 1e-12);
     const double direction = 0.5 * std::atan2(2 * b, a - c);
     s.normal = {-std::sin(direction), std::cos(direction)};
     if (!s.isWall)  // its own place says more than the middle of what is around it

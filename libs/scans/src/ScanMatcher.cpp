@@ -11,11 +11,27 @@ namespace slamot::scans
 namespace
 {
 constexpr std::size_t kFewest = 20;                  // points of a scan worth matching
+constexpr double kFarthest = 1e4;                    // [m]: beyond, cells have no numbers
 constexpr double kAnywhere = 100, kAnyHeading = 10;  // [m, rad]: deviations where nothing tells
 
 Matrix3 diagonal(double position, double heading)
 {
   return Vector3(position * position, position * position, heading * heading).asDiagonal();
+}
+bool isUsable(const Gaussian<Pose2D>& g)
+{
+  return g.cov.allFinite() && std::abs(g.mean.x) < kFarthest && std::abs(g.mean.y) < kFarthest &&
+         std::isfinite(g.mean.phi);
+}
+
+/// Odometry that is contradicted has slipped, and tells less than it says: its deviations grow
+/// until what was found is no more than likely.
+Matrix3 loosened(const Gaussian<Pose2D>& expected, const Pose2D& found)
+{
+  constexpr double kLikely = 7.8;  // 95 % at 3 degrees of freedom
+  const Pose2D& e = expected.mean;
+  const Vector3 d{found.x - e.x, found.y - e.y, math::wrapToPi(found.phi - e.phi)};
+  return std::max(1.0, d.dot(expected.cov.inverse() * d) / kLikely) * expected.cov;
 }
 }  // namespace
 
@@ -24,7 +40,7 @@ Match ScanMatcher::match(const LocalMap& map, const std::vector<Point2D>& points
 {
   Match out;
   out.pose = out.alone = expected;
-  if (map.empty() || points.size() < kFewest || !expected.cov.allFinite()) return out;
+  if (map.empty() || points.size() < kFewest || !isUsable(expected)) return out;
   // An expectation without doubt would have no inverse.
   Gaussian<Pose2D> prior = expected;
   prior.cov += diagonal(1e-3, 1e-3);
@@ -40,6 +56,7 @@ Match ScanMatcher::match(const LocalMap& map, const std::vector<Point2D>& points
   const auto found = searchWindow(map, points, window, settings_.leastScore);
   if (!found) return out;
   out.score = found->score;
+  prior.cov = loosened(prior, found->pose);
   const Alignment a =
       align(map, points, found->pose, prior, settings_.rangeStd, settings_.inflation);
   out.explained = a.explained;

@@ -45,7 +45,7 @@ Settings Settings::from(core::Params& p)
   s.recent = p.inRange("recent_m", 0.1, 100, 12);
   s.reach = reachFrom(p, "search_", {0.4, 1.5, math::degToRad(25), math::degToRad(60)});
   s.match.rangeStd = p.positive("range_std_m", 0.03);
-  s.match.inflation = p.positive("match_inflation", 4);
+  s.match.inflation = p.positive("match_inflation", 1);
   s.match.floorPosition = p.nonNegative("match_floor_m", 0.01);
   s.match.floorHeading = p.inRange("match_floor_deg", 0, 90, math::degToRad(0.2));
   s.match.leastScore = p.inRange("match_score", 0, 1, 0.35);

@@ -16,8 +16,10 @@ struct Sums
   Matrix3 H = Matrix3::Zero();
   Vector3 g = Vector3::Zero();
   double weight = 0;
+  Matrix3 pretended = Matrix3::Zero();  // of H, what errors of normals only seem to tell
 
-  void add(const Vector3& J, double residual, double variance)
+  /// \returns its weight.
+  double add(const Vector3& J, double residual, double variance)
   {
     const double chi2 = residual * residual / variance;
     const double root = 1 / (1 + chi2 / (kKernel * kKernel));
@@ -25,6 +27,7 @@ struct Sums
     H += w * J * J.transpose();
     g += w * J * residual;
     weight += root * root;
+    return w;
   }
 };
 
@@ -36,14 +39,17 @@ Sums sumsAt(const LocalMap& map, const std::vector<Point2D>& points, const Pose2
   {
     const Point2D q = math::transform(pose, p);
     const Surface* s = map.nearest(q);
-    if (!s) continue;
+    if (!s || !s->isKnown) continue;
     const double variance = rangeStd * rangeStd + s->variance;
     const double dx = q.x - s->centre.x, dy = q.y - s->centre.y;
     const Vector2 lever{-(q.y - pose.y), q.x - pose.x};  // how the point moves as the robot turns
     if (s->isWall)
     {
       const Vector2& n = s->normal;
-      out.add({n.x(), n.y(), n.dot(lever)}, n.x() * dx + n.y() * dy, variance);
+      const double w = out.add({n.x(), n.y(), n.dot(lever)}, n.x() * dx + n.y() * dy, variance);
+      const Vector2 t(-n.y(), n.x());
+      const Vector3 along{t.x(), t.y(), t.dot(lever)};
+      out.pretended += w * s->tilt * along * along.transpose();
       continue;
     }
     // Both coordinates of one point share its weight.
@@ -53,6 +59,14 @@ Sums sumsAt(const LocalMap& map, const std::vector<Point2D>& points, const Pose2
     out.weight = before + (out.weight - before) / 2;
   }
   return out;
+}
+
+/// What the points tell.  A normal that is off by chance has a part along the wall, and its square
+/// does not average out: without taking it off, a corridor would seem to have features.
+Matrix3 informationOf(const Sums& sums)
+{
+  const Matrix3 H = sums.H - sums.pretended;
+  return H + std::max(0.0, -math::smallestEigenvalue(H)) * Matrix3::Identity();
 }
 
 Vector3 difference(const Pose2D& a, const Pose2D& b)
@@ -78,7 +92,7 @@ Alignment align(const LocalMap& map, const std::vector<Point2D>& points, const P
     if (step.cwiseAbs().maxCoeff() < kStill) break;
   }
   const Sums sums = sumsAt(map, points, out.pose, rangeStd);
-  out.information = sums.H / inflation;
+  out.information = informationOf(sums) / inflation;
   out.explained = points.empty() ? 0 : sums.weight / static_cast<double>(points.size());
   return out;
 }

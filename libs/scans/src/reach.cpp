@@ -53,7 +53,7 @@ std::vector<Gaussian<Pose2D>> reachFrom(const PoseGraph& graph, std::size_t node
       const Gaussian<Pose2D> hop{math::between(graph.pose(at), graph.pose(to)), cov};
       const Gaussian<Pose2D> there = math::compose(out[at], hop);
       const double cost = sizeOf(there.cov);
-      if (cost >= best[to]) continue;
+      if (!(cost < best[to])) continue;  // nor where it is no number
       best[to] = cost;
       out[to] = there;
       open.emplace(cost, to);

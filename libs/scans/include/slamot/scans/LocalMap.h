@@ -13,6 +13,8 @@ struct Surface
 {
   Point2D centre;        ///< [m]
   Vector2 normal{1, 0};  ///< of a wall
+  double tilt = 0;       ///< variance of the normal's direction [rad²]
+  bool isKnown = false;  ///< else too few points tell of it
   bool isWall = false;   ///< else only that something is near its centre
   double variance = 0;   ///< of points across the wall, or of each coordinate [m²]
 };
