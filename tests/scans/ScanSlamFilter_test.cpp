@@ -6,6 +6,8 @@
 
 #include <cstring>
 #include <limits>
+#include <map>
+#include <sstream>
 
 #include "drawnHouse.h"
 
@@ -148,6 +150,36 @@ TEST(ScanSlamFilter, ScansOfSeveralLasersAreOne)
   for (const core::Step& step : steps) filter->process(step);
   const Pose2D error = math::between(drive.back(), filter->estimate().robot.mean);
   EXPECT_LT(std::hypot(error.x, error.y), 0.05);
+}
+
+TEST(ScanSlamFilter, ShippedConfigurationHoldsTheDefaults)
+{
+  core::Config shipped = core::Config::load(SLAMOT_SOURCE_DIR "/config-ini/scan-slam.ini");
+  core::Config empty;
+  core::Params of(shipped, "scan-slam"), none(empty, "scan-slam");
+  const std::size_t keys = of.keys().size();
+  Settings::from(of), Settings::from(none);
+  shipped.requireAllRead();
+  EXPECT_EQ(of.keys().size(), keys);
+  const auto values = [](const core::Config& c)
+  {
+    std::map<std::string, double> out;
+    std::istringstream in(c.effectiveText());
+    for (std::string line; std::getline(in, line);)
+      if (const auto at = line.find('='); at != std::string::npos)
+      {
+        std::istringstream number(line.substr(at + 1));
+        std::string key;
+        std::istringstream(line) >> key;
+        if (!(number >> out[key])) out.erase(key);
+      }
+    return out;
+  };
+  const auto a = values(shipped), b = values(empty);
+  EXPECT_GT(a.size(), 25u);
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [key, value] : a) EXPECT_NEAR(value, b.at(key), 1e-9) << key;
+  EXPECT_EQ(keys, a.size() + 1);  // and the flag `loops`: nothing is left to its default
 }
 
 TEST(ScanSlamFilter, RefusesSettingsThatMakeNoSense)

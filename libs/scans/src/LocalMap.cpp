@@ -43,7 +43,7 @@ LocalMap::LocalMap(const std::vector<Point2D>& points, double farthest)
   enclose(near);
   const std::vector<Sums> cells = addUp(near);
   fitSurfaces(cells);
-  buildLevels(spread(cells));
+  field_ = BlockMaxima(spread(cells));
 }
 
 void LocalMap::enclose(const std::vector<Point2D>& points)
@@ -118,7 +118,7 @@ void LocalMap::fitSurfaces(const std::vector<Sums>& cells)
   }
 }
 
-LocalMap::Level LocalMap::spread(const std::vector<Sums>& cells)
+BlockMaxima::Level LocalMap::spread(const std::vector<Sums>& cells)
 {
   std::vector<int> distance(nearest_.size(), std::numeric_limits<int>::max());
   for (std::size_t i = 0; i < cells.size(); ++i)
@@ -135,45 +135,12 @@ LocalMap::Level LocalMap::spread(const std::vector<Sums>& cells)
   for (std::size_t d = 0; d < value.size(); ++d)
     value[d] = static_cast<std::uint8_t>(
         std::lround(kHit * std::exp(-0.5 * static_cast<double>(d) * squared(kCell / kFieldStd))));
-  Level field(width_, height_);
+  BlockMaxima::Level field(width_, height_);
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
       if (const std::size_t at = index(x, y); nearest_[at] >= 0)
         field.value[field.index(x, y)] = value[static_cast<std::size_t>(distance[at])];
   return field;
-}
-
-/// Maxima over blocks of twice the size.
-LocalMap::Level LocalMap::halved(const Level& fine)
-{
-  Level out((fine.width + 1) / 2, (fine.height + 1) / 2);
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x)
-      out.value[out.index(x, y)] = std::max(
-          {fine.value[fine.index(2 * x, 2 * y)], fine.value[fine.index(2 * x + 1, 2 * y)],
-           fine.value[fine.index(2 * x, 2 * y + 1)], fine.value[fine.index(2 * x + 1, 2 * y + 1)]});
-  return out;
-}
-
-/// A block's value then covers the block after it too: wherever in a block a point lies, moving it
-/// by up to a block's size is bounded by one look.
-void LocalMap::coverNext(Level& level)
-{
-  std::vector<std::uint8_t>& v = level.value;
-  const std::size_t row = level.index(0, 1) - level.index(0, 0);
-  for (std::size_t i = 0; i + row + 1 < v.size(); ++i)  // those read are not yet written
-    v[i] = std::max({v[i], v[i + 1], v[i + row], v[i + row + 1]});
-}
-
-void LocalMap::buildLevels(Level blocks)
-{
-  for (std::size_t level = 0; level < levels_.size(); ++level)
-  {
-    Level coarser = level + 1 < levels_.size() ? halved(blocks) : Level{};
-    if (level > 0) coverNext(blocks);
-    levels_[level] = std::move(blocks);
-    blocks = std::move(coarser);
-  }
 }
 
 const Surface* LocalMap::nearest(const Point2D& p) const

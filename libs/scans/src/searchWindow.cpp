@@ -43,7 +43,7 @@ class Search
     std::nth_element(ranges.begin(), far, ranges.end());
     turnStep_ = std::clamp(LocalMap::kCell / *far, 0.003, 0.05);
     turns_ = static_cast<int>(std::ceil(window.turn / turnStep_));
-    while (topLevel_ + 1 < LocalMap::kLevels && (2 << topLevel_) <= radius_) ++topLevel_;
+    while (topLevel_ + 1 < BlockMaxima::kLevels && (2 << topLevel_) <= radius_) ++topLevel_;
     for (int i = -turns_; i <= turns_; ++i) rotate(points, i);
   }
 
@@ -84,7 +84,7 @@ class Search
   {
     int sum = 0;
     const Cells& cells = cells_[static_cast<std::size_t>(turn + turns_)];
-    for (const auto& [cx, cy] : cells) sum += map_.bound(level, cx + x, cy + y);
+    for (const auto& [cx, cy] : cells) sum += map_.field().bound(level, cx + x, cy + y);
     const double score = sum / (LocalMap::kHit * static_cast<double>(cells.size()));
     if (score < least_) return;
     blocks_.push({score - cost(level, turn, x, y), score, level, turn, x, y});

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <slamot/math/geometry.h>
+#include <slamot/scans/BlockMaxima.h>
 
 #include <array>
-#include <cstdint>
-#include <vector>
 
 namespace slamot::scans
 {
@@ -21,13 +20,11 @@ struct Surface
 
 /// What scans that were taken near each other saw, prepared for matching: for every cell the
 /// nearest surface, and how likely a beam ends there.  Likelihood fields: Thrun, Burgard, Fox 2005,
-/// section 6.4; their maxima over blocks of cells: Olson, "Real-time correlative scan matching",
-/// 2009.
+/// section 6.4.
 class LocalMap
 {
  public:
   static constexpr double kCell = 0.05;  ///< [m]
-  static constexpr int kLevels = 6;      ///< of maxima: blocks of 1, 2, 4 ... cells
   static constexpr double kHit = 255;    ///< a cell's value where something was seen
 
   /// \param points [m]; those farther than `farthest` from the origin are left out.
@@ -41,44 +38,17 @@ class LocalMap
     return {static_cast<int>(std::floor((p.x - origin_.x) / kCell)),
             static_cast<int>(std::floor((p.y - origin_.y) / kCell))};
   }
-  /// The largest value of the cells x .. x + 2^level - 1, y likewise, or a bit more; 0 outside.
-  [[nodiscard]] int bound(int level, int x, int y) const
-  {
-    const Level& l = levels_[static_cast<std::size_t>(level)];
-    const int i = x >> level, j = y >> level;
-    if (i < -1 || j < -1 || i >= l.width || j >= l.height) return 0;
-    return l.value[l.index(i, j)];
-  }
+  /// How likely beams end in cells, as maxima over blocks; level 0: the cells' own values.
+  [[nodiscard]] const BlockMaxima& field() const { return field_; }
   /// Nothing is farther off than some cells, if there is one.
   [[nodiscard]] const Surface* nearest(const Point2D& p) const;
 
  private:
-  /// Values of blocks, with a margin of zeros around them.
-  struct Level
-  {
-    Level() = default;
-    Level(int w, int h)
-        : width(w),
-          height(h),
-          value(static_cast<std::size_t>(w + 2) * static_cast<std::size_t>(h + 2))
-    {
-    }
-    [[nodiscard]] std::size_t index(int x, int y) const
-    {
-      return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) +
-             static_cast<std::size_t>(x + 1);
-    }
-    int width = 0, height = 0;  ///< in blocks
-    std::vector<std::uint8_t> value;
-  };
   struct Sums;
   void enclose(const std::vector<Point2D>& points);
   std::vector<Sums> addUp(const std::vector<Point2D>& points);
   void fitSurfaces(const std::vector<Sums>& cells);
-  Level spread(const std::vector<Sums>& cells);
-  static Level halved(const Level& fine);
-  static void coverNext(Level& level);
-  void buildLevels(Level blocks);
+  [[nodiscard]] BlockMaxima::Level spread(const std::vector<Sums>& cells);
   [[nodiscard]] std::size_t index(int x, int y) const
   {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
@@ -89,6 +59,6 @@ class LocalMap
   int width_ = 0, height_ = 0;         // in cells
   std::vector<std::int32_t> nearest_;  // by cell: place in surfaces_, or -1
   std::vector<Surface> surfaces_;
-  std::array<Level, kLevels> levels_;
+  BlockMaxima field_;
 };
 }  // namespace slamot::scans
