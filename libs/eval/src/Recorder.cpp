@@ -14,11 +14,21 @@ namespace
 constexpr double kSameInstant = 2e-9;  // [s]: result files print nanoseconds
 constexpr double kApart = 1e-6;        // [s], between steps that a log gives one time
 
+/// Whether landmarks or targets were looked for: a laser's scan may be of use for either, or not.
+bool lookedFor(const core::Step& step, const core::Update& update)
+{
+  if (step.landmarks || step.blobs) return true;
+  const auto& targets = update.estimate.targets;
+  return !step.lasers.empty() &&
+         std::any_of(targets.begin(), targets.end(),
+                     [&](const core::TargetEstimate& t) { return t.lastSeen >= step.time; });
+}
+
 StepRow diagnosticsOf(const core::Step& step, const core::Update& update)
 {
   StepRow out;
   out.time = step.time;
-  out.scan = step.landmarks || step.blobs;
+  out.scan = lookedFor(step, update);
   out.ess = update.diagnostics.ess;
   out.resampled = update.diagnostics.resampled;
   out.dropped = step.dropped;
@@ -99,7 +109,7 @@ void Recorder::begin(const core::Estimate& start)
 void Recorder::accept(const core::Step& step, const core::Update& update)
 {
   if (step.odometry) odometry_ = math::compose(odometry_, step.odometry->mean);
-  scanPending_ = scanPending_ || step.landmarks || step.blobs;
+  scanPending_ = scanPending_ || lookedFor(step, update);
   record_.observations += observationsOf(step);
   record_.particles = std::max(record_.particles, update.diagnostics.particles);
   record_.close += static_cast<std::size_t>(update.diagnostics.close);

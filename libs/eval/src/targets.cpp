@@ -1,6 +1,8 @@
 #include <slamot/math/statistics.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <set>
 
 #include "poseErrors.h"
@@ -32,6 +34,7 @@ class TargetErrors
       if (!truth) continue;
       errors_.push_back(poseError(t.row, t.pose, *truth, truthFromMap_));
       ages_.push_back(row.time - t.lastSeen);
+      if (const auto speed = trueSpeed(row.time)) speeds_.push_back(t.velocity.norm() - *speed);
       tracked_.insert(t.row);
       if (!sighted(t)) continue;
       sightings_.push_back(errors_.back());
@@ -61,7 +64,9 @@ class TargetErrors
     out.relativeAtSightings = summarise(relative_);
     for (std::size_t i = 0; i + 1 < options_.sinceSeenEdges.size(); ++i)
       out.sinceSeen.push_back(ageBin(options_.sinceSeenEdges[i], options_.sinceSeenEdges[i + 1]));
-    out.trackedFraction = trackedFraction();
+    out.speedRmse = rootMeanSquare(speeds_);
+    out.trackedFraction = trackedFraction(-1e300);
+    if (const auto moved = firstMoved()) out.trackedSinceMoved = trackedFraction(*moved);
   }
 
  private:
@@ -79,13 +84,45 @@ class TargetErrors
     return {from, to, summarise(inBin)};
   }
 
-  [[nodiscard]] std::optional<double> trackedFraction() const
+  [[nodiscard]] std::optional<double> trueSpeed(double time) const
   {
-    std::size_t withTruth = 0;
-    for (const RobotRow& row : record_.rows)
-      withTruth += trajectory_.at(row.time, options_.maxTruthGap).has_value() ? 1 : 0;
+    constexpr double kHalf = 0.1;  // [s]
+    const auto before = trajectory_.at(time - kHalf, options_.maxTruthGap);
+    const auto after = trajectory_.at(time + kHalf, options_.maxTruthGap);
+    if (!before || !after) return std::nullopt;
+    return std::hypot(after->pose.x - before->pose.x, after->pose.y - before->pose.y) / (2 * kHalf);
+  }
+
+  [[nodiscard]] static std::optional<double> rootMeanSquare(const std::vector<double>& v)
+  {
+    if (v.empty()) return std::nullopt;
+    const double sum = std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
+    return std::sqrt(sum / static_cast<double>(v.size()));
+  }
+
+  /// [s]; none: it stands all the time.
+  [[nodiscard]] std::optional<double> firstMoved() const
+  {
+    constexpr double kMoved = 0.05;  // [m]
+    const auto& poses = trajectory_.poses;
+    for (const TimedPose& p : poses)
+      if (std::hypot(p.pose.x - poses.front().pose.x, p.pose.y - poses.front().pose.y) > kMoved)
+        return p.time;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<double> trackedFraction(double since) const
+  {
+    std::size_t withTruth = 0, tracked = 0;
+    for (std::size_t i = 0; i < record_.rows.size(); ++i)
+    {
+      const double time = record_.rows[i].time;
+      if (time < since || !trajectory_.at(time, options_.maxTruthGap)) continue;
+      ++withTruth;
+      tracked += tracked_.count(i);
+    }
     if (withTruth == 0) return std::nullopt;
-    return static_cast<double>(tracked_.size()) / static_cast<double>(withTruth);
+    return static_cast<double>(tracked) / static_cast<double>(withTruth);
   }
 
   const Record& record_;
@@ -95,6 +132,7 @@ class TargetErrors
   Pose2D truthFromMap_;
   std::vector<StepError> errors_, sightings_, relative_;
   std::vector<double> ages_;       // of errors_, since the last sighting [s]
+  std::vector<double> speeds_;     // errors [m/s]
   std::set<std::size_t> tracked_;  // rows
 };
 

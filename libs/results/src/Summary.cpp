@@ -40,6 +40,8 @@ Json detailedTarget(const eval::TargetEvaluation& t)
   Json out = {{"id", t.id},
               {"truth_id", orNull(t.truthId)},
               {"tracked_fraction", orNull(t.trackedFraction)},
+              {"tracked_since_moved", orNull(t.trackedSinceMoved)},
+              {"speed_rmse_mps", orNull(t.speedRmse)},
               {"all", detailedErrors(t.all)},
               {"at_scans", detailedErrors(t.atScans)},
               {"at_sightings", detailedErrors(t.atSightings)},

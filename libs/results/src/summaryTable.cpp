@@ -58,6 +58,7 @@ std::string detailLines(const eval::TargetEvaluation& t)
   add("at scans", t.atScans);
   add("at sightings", t.atSightings);
   add("as seen from the robot", t.relativeAtSightings);
+  if (t.speedRmse) text += left("  speed") + fixed(*t.speedRmse, 3) + " m/s rmse\n";
   for (const eval::SinceSeen& bin : t.sinceSeen)
     add("unseen " + fixed(bin.from, 0) + (bin.to < 1e8 ? " to " + fixed(bin.to, 0) : "+") + " s",
         bin.errors);
@@ -75,6 +76,8 @@ std::string targetLines(const eval::Record& record, const TargetGroup& group, bo
   if (detailed) text += detailLines(t);
   if (!t.trackedFraction) return text;
   text += left("  tracked") + fixed(100 * *t.trackedFraction, 1) + "% of its steps";
+  if (t.trackedSinceMoved && *t.trackedSinceMoved != *t.trackedFraction)
+    text += ", " + fixed(100 * *t.trackedSinceMoved, 1) + "% since it first moved";
   if (!record.targets[group.tracks.front()].identified) text += ", " + trackNames(record, group);
   return text + "\n";
 }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "metricEntries.h"
 
 namespace slamot::study
@@ -71,6 +73,25 @@ std::function<Value(const Measured&)> targetUnseen(std::size_t part)
   return [=](const Measured& r) { return overTargets(r, rmse); };
 }
 
+Value targetSpeed(const Measured& r)
+{
+  return overTargets(r, [](const auto& t) { return t.speedRmse; });
+}
+
+Value targetTrackedSinceMoved(const Measured& r)
+{
+  return overTargets(r, [](const auto& t) { return t.trackedSinceMoved; });
+}
+
+/// Tracks that stand for no true target.
+Value falseTracks(const Measured& r)
+{
+  if (r.evaluation.trueTargets.empty()) return std::nullopt;
+  const auto& tracks = r.evaluation.targets;
+  return static_cast<double>(
+      std::count_if(tracks.begin(), tracks.end(), [](const auto& t) { return !t.truthId; }));
+}
+
 Value targetTracked(const Measured& r)
 {
   return overTargets(r, [](const auto& t) { return t.trackedFraction; });
@@ -128,6 +149,9 @@ std::vector<MetricEntry> targetMetrics()
       {{"target_scans_coverage95", "target inside 95% ellipse at scans", 3},
        target(&T::atScans, &E::coverage95)},
       {{"target_tracked", "share of time the target is tracked", 3}, targetTracked},
+      {{"target_tracked_since_moved", "the same since it first moved", 3}, targetTrackedSinceMoved},
+      {{"target_speed_rmse_mps", "target speed RMSE [m/s]", 3}, targetSpeed},
+      {{"false_tracks", "tracks of no true target", 1}, falseTracks},
       {{"targets_tracked_mean", "targets tracked, mean", 2}, targetSet(kTargetSet, &S::estimated)},
       {{"targets_there_mean", "targets there, mean", 2}, targetSet(kTargetSet, &S::truly)},
       {{"targets_gospa_m", "target GOSPA, mean [m]", 3}, targetSet(kTargetSet, &S::gospa)},
