@@ -79,9 +79,9 @@ double Cluster::width() const
   return distance(points.front().at, points.back().at);
 }
 
-LaserOptions LaserOptions::from(core::Params& p)
+LaserOptions LaserOptions::from(core::Params& p, const LaserOptions& otherwise)
 {
-  LaserOptions out;
+  LaserOptions out = otherwise;
   out.rangeStd = p.positive("range_std_m", out.rangeStd);
   out.maxRange = p.positive("max_range_m", out.maxRange);
   out.jump = p.positive("jump_m", out.jump);

@@ -38,7 +38,8 @@ struct LaserOptions
       0.17453292519943295;  ///< least angle between a surface and the beams on it [rad]
 
   /// Keys range_std_m, max_range_m, jump_m, flattest_deg.
-  static LaserOptions from(core::Params& p);
+  static LaserOptions from(core::Params& p, const LaserOptions& otherwise);
+  static LaserOptions from(core::Params& p) { return from(p, {}); }
 };
 
 /// Parts a scan where the next return is farther off than a surface that the beams meet at

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <slamot/core/Estimate.h>
+#include <slamot/core/Start.h>
+#include <slamot/models/PolynomialTarget.h>
+#include <slamot/perception/LaserClusters.h>
+
+#include <deque>
+
+#include "boxBeams.h"
+
+namespace slamot::moving
+{
+/// A small thing in a scan, in the tracks' axes.
+struct Thing
+{
+  std::vector<Point2D> points;     ///< [m]
+  std::vector<std::size_t> beams;  ///< of the points
+  Point2D centre;                  ///< halfway between its ends, or its mean where that is more [m]
+  std::optional<End> right, left;  ///< where it ends
+  bool isWhole = false;            ///< nothing nearer hides its ends
+  double freePart = 0;             ///< of its points, those where nothing was
+};
+
+/// What is followed: at first a point, its middle; once it has moved, a box.
+class MovingTrack
+{
+ public:
+  MovingTrack(const Thing& thing, double time, const MovingOptions& options);
+
+  /// A target whose start is known; without a heading it is a point until it moves.
+  MovingTrack(int id, const core::ObjectStart& start, double time, const MovingOptions& options);
+
+  void predict(double dt, const MovingOptions& options);
+  /// The robot, at a place, moved by an increment with this covariance, in the tracks' axes: what
+  /// is seen from it is as uncertain.
+  void widen(const Point2D& robot, const Matrix3& cov);
+  void see(const Thing& thing, const Point2D& laser, double time, const MovingOptions& options);
+
+  /// What the box would become.  There must be one.
+  [[nodiscard]] BoxState fitted(const Thing& thing, const Point2D& laser,
+                                const MovingOptions& options) const;
+
+  [[nodiscard]] bool isMoving() const { return id_ != core::kNoId; }
+  [[nodiscard]] int id() const { return id_; }
+  /// Its returns when it was first seen lately [m].
+  [[nodiscard]] const std::vector<Point2D>& before() const { return lately_.front().points; }
+  /// All of them, lately.
+  [[nodiscard]] std::vector<std::vector<Point2D>> trail() const;
+  /// Whether it has gone far enough, to where nothing was or from where nothing is left.
+  /// \param vacated part of before() that lies where nothing stands by now.
+  [[nodiscard]] bool hasMoved(double vacated, const MovingOptions& options) const;
+  void confirm(int id, const MovingOptions& options);
+
+  [[nodiscard]] const std::optional<BoxState>& box() const { return box_; }
+  [[nodiscard]] Point2D place() const;
+  /// Of its place [m].
+  [[nodiscard]] double deviation() const;
+  [[nodiscard]] double lastSeen() const { return lastSeen_; }
+  /// In the tracks' axes.
+  [[nodiscard]] core::TargetEstimate estimate(const MovingOptions& options) const;
+
+  int seenThrough = 0;  ///< scans in a row that looked through it
+
+ private:
+  models::ConstantVelocityTarget model_;
+  models::ConstantVelocityTarget::State point_;
+  std::optional<BoxState> box_;
+  struct Was
+  {
+    double time;
+    Point2D at;
+    double freePart;
+    std::vector<Point2D> points;
+  };
+  std::deque<Was> lately_;  // where it was seen, as a point
+  int id_ = core::kNoId;
+  bool identified_ = false;
+  double lastSeen_ = 0;
+};
+}  // namespace slamot::moving
