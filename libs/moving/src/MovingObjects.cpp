@@ -1,28 +1,12 @@
 #include <slamot/moving/MovingObjects.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
 #include <set>
-#include <tuple>
 
-#include "MovingTrack.h"
-#include "boxBeams.h"
+#include "claims.h"
 
 namespace slamot::moving
 {
-namespace
-{
-using perception::Cluster;
-using perception::ScanPoint;
-
-double distance(const Point2D& a, const Point2D& b)
-{
-  return std::hypot(a.x - b.x, a.y - b.y);
-}
-}  // namespace
-
 class MovingObjects::Impl
 {
  public:
@@ -51,16 +35,16 @@ class MovingObjects::Impl
 
   std::vector<bool> see(double time, const core::LaserScan& scan)
   {
-    const Pose2D laser = math::compose(robot_, scan.pose_robot_sensor);
-    const Look look{time, {laser.x, laser.y}, std::abs(scan.angleStep), &scan};
-    const std::vector<Cluster> clusters = perception::clustersOf(scan, options_.laser);
+    const Look look(time, robot_, scan);
+    const auto clusters = perception::clustersOf(scan, options_.laser);
     std::vector<bool> moving(scan.ranges.size(), false);
-    std::vector<Thing> rest = followBoxes(clusters, look, moving);
-    followPoints(rest, look, moving);
-    lookThrough(scan, look, laser.phi);
-    for (const Cluster& c : clusters)
-      for (const ScanPoint& p : c.points)
-        space_.add(look.laser, math::transform(robot_, p.at), !moving[p.beam], time);
+    const Claims claims = claim(clusters, tracks_, look, space_, options_);
+    followBoxes(claims, look, moving);
+    followPoints(claims.rest, look, moving);
+    lookThrough(look);
+    for (const auto& c : clusters)
+      for (const auto& p : c.points)
+        space_.add({look.laser.x, look.laser.y}, look.at(p), !moving[p.beam], time);
     space_.tidy(time);
     forget(time);
     return moving;
@@ -69,9 +53,9 @@ class MovingObjects::Impl
   [[nodiscard]] std::vector<bool> expected(const core::LaserScan& scan) const
   {
     std::vector<bool> out(scan.ranges.size(), false);
-    for (const Cluster& c : perception::clustersOf(scan, options_.laser))
-      for (const ScanPoint& p : c.points)
-        out[p.beam] = ownerOf(math::transform(robot_, p.at)) != nullptr;
+    for (const auto& c : perception::clustersOf(scan, options_.laser))
+      for (const auto& p : c.points)
+        out[p.beam] = ownerOf(math::transform(robot_, p.at), tracks_) != nullptr;
     return out;
   }
 
@@ -85,223 +69,35 @@ class MovingObjects::Impl
   }
 
  private:
-  struct Look
+  void followBoxes(const Claims& claims, const Look& look, std::vector<bool>& moving)
   {
-    double time;
-    Point2D laser;    // in the tracks' axes
-    double beamStep;  // [rad]
-    const core::LaserScan* scan;
-  };
-
-  /// Where a thing ends beside a return, `step` beams on: between these beams, if the next one sees
-  /// something farther away.  If it sees nothing, the thing may go on: dark parts and flat angles
-  /// give no return.
-  [[nodiscard]] End endAt(const ScanPoint& end, int step, const Look& look) const
-  {
-    constexpr double kDoubtful = 3;  // beams
-    const auto n = static_cast<std::ptrdiff_t>(look.scan->ranges.size());
-    const std::ptrdiff_t next = (static_cast<std::ptrdiff_t>(end.beam) + step + n) % n;
-    const double r = look.scan->ranges[static_cast<std::size_t>(next)];
-    const bool isSure = r > end.range && r < look.scan->rangeMax;
-    const Point2D at = math::transform(robot_, end.at);
-    const double bearing = std::atan2(at.y - look.laser.y, at.x - look.laser.x);
-    return {math::wrapToPi(bearing + 0.5 * step * look.scan->angleStep),
-            (isSure ? 0.5 : kDoubtful) * look.beamStep};
-  }
-
-  [[nodiscard]] static double gateOf(const MovingTrack& t)
-  {
-    constexpr double kLeast = 0.1, kMost = 0.35;  // [m]
-    return std::clamp(3 * t.deviation(), kLeast, kMost);
-  }
-
-  /// The moving thing, with a box, whose outline a return is near to; none: null.
-  [[nodiscard]] const MovingTrack* ownerOf(const Point2D& at) const
-  {
-    const MovingTrack* owner = nullptr;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const MovingTrack& t : tracks_)
-    {
-      if (!t.box()) continue;
-      const double d = distanceToOutline(*t.box(), at);
-      if (d <= gateOf(t) && d < nearest) nearest = d, owner = &t;
-    }
-    return owner;
-  }
-
-  [[nodiscard]] Thing thingOf(const Cluster& cluster, std::size_t from, std::size_t to,
-                              const Look& look) const
-  {
-    Thing out;
-    double x = 0, y = 0;
-    std::size_t inFree = 0;
-    for (std::size_t i = from; i < to; ++i)
-    {
-      const Point2D at = math::transform(robot_, cluster.points[i].at);
-      out.points.push_back(at);
-      out.beams.push_back(cluster.points[i].beam);
-      x += at.x, y += at.y;
-      inFree += space_.at(at, cluster.points[i].range, look.time) == Evidence::kFree ? 1 : 0;
-    }
-    const auto n = static_cast<double>(to - from);
-    out.isWhole = cluster.freeRight && cluster.freeLeft;
-    out.centre = {x / n, y / n};
-    out.freePart = static_cast<double>(inFree) / n;
-    const int leftwards = look.scan->angleStep > 0 ? 1 : -1;
-    if (from == 0 && cluster.freeRight) out.right = endAt(cluster.points.front(), -leftwards, look);
-    if (to == cluster.points.size() && cluster.freeLeft)
-      out.left = endAt(cluster.points.back(), leftwards, look);
-    return out;
-  }
-
-  [[nodiscard]] double vacatedPart(const std::vector<Point2D>& points, const Look& look) const
-  {
-    const auto isFree = [&](const Point2D& p)
-    { return space_.at(p, distance(p, look.laser), look.time) == Evidence::kFree; };
-    return static_cast<double>(std::count_if(points.begin(), points.end(), isFree)) /
-           static_cast<double>(points.size());
-  }
-
-  /// Gives the boxes their returns. \returns the small things that are nobody's.
-  std::vector<Thing> followBoxes(const std::vector<Cluster>& clusters, const Look& look,
-                                 std::vector<bool>& moving)
-  {
-    std::vector<Thing> rest;
-    std::map<const MovingTrack*, std::vector<Thing>> seen;
-    for (const Cluster& c : clusters)
-    {
-      std::vector<const MovingTrack*> owners;
-      for (const ScanPoint& p : c.points) owners.push_back(ownerOf(math::transform(robot_, p.at)));
-      const auto owned = std::count_if(owners.begin(), owners.end(), [](auto* t) { return t; });
-      const bool small = c.width() <= options_.maxSize;
-      if (owned > 0 && standsThere(c, owners, look)) continue;
-      if (owned == 0)
-      {
-        if (small && static_cast<int>(c.points.size()) >= options_.minPoints)
-          rest.push_back(thingOf(c, 0, c.points.size(), look));
-        continue;
-      }
-      if (small && 2 * owned >= static_cast<std::ptrdiff_t>(owners.size())) spread(owners);
-      addRuns(c, owners, look, seen);
-    }
     for (MovingTrack& t : tracks_)
     {
-      const auto found = seen.find(&t);
-      if (found == seen.end()) continue;
-      const Thing thing = ownParts(t, found->second, look);
+      const auto found = claims.boxes.find(&t);
+      if (found == claims.boxes.end()) continue;
+      const Thing& thing = found->second;
       for (const std::size_t b : thing.beams) moving[b] = true;
-      if (static_cast<int>(thing.points.size()) >= options_.minPoints)
-        t.see(thing, look.laser, look.time, options_);
+      if (static_cast<int>(thing.points.size()) >= options_.minPoints) t.see(thing, look, options_);
     }
-    return rest;
-  }
-
-  /// Whether what lies in a moving thing's gate stood there before.
-  [[nodiscard]] bool standsThere(const Cluster& c, const std::vector<const MovingTrack*>& owners,
-                                 const Look& look) const
-  {
-    constexpr double kMostly = 0.7;
-    int owned = 0, standing = 0;
-    for (std::size_t i = 0; i < owners.size(); ++i)
-    {
-      if (!owners[i]) continue;
-      ++owned;
-      const Point2D at = math::transform(robot_, c.points[i].at);
-      standing += space_.isOccupied(at, look.time) ? 1 : 0;
-    }
-    return standing > kMostly * owned;
-  }
-
-  /// A thing's points beside those that are in the gate are its own too.
-  static void spread(std::vector<const MovingTrack*>& owners)
-  {
-    for (std::size_t i = 1; i < owners.size(); ++i)
-      if (!owners[i]) owners[i] = owners[i - 1];
-    for (std::size_t i = owners.size() - 1; i-- > 0;)
-      if (!owners[i]) owners[i] = owners[i + 1];
-  }
-
-  void addRuns(const Cluster& c, const std::vector<const MovingTrack*>& owners, const Look& look,
-               std::map<const MovingTrack*, std::vector<Thing>>& seen) const
-  {
-    for (std::size_t from = 0; from < owners.size();)
-    {
-      std::size_t to = from;
-      while (to < owners.size() && owners[to] == owners[from]) ++to;
-      if (owners[from]) seen[owners[from]].push_back(thingOf(c, from, to, look));
-      from = to;
-    }
-  }
-
-  /// Of the parts in a box's gate, together, those that lie on it once it is fitted to them all:
-  /// what stands beside it is no part of it.
-  [[nodiscard]] Thing ownParts(const MovingTrack& t, const std::vector<Thing>& parts,
-                               const Look& look) const
-  {
-    constexpr double kOff = 0.1;  // [m], mean distance
-    Thing all, own;
-    for (const Thing& part : parts) join(all, part, look.laser);
-    const BoxState box = t.fitted(all, look.laser, options_);
-    for (const Thing& part : parts)
-    {
-      double sum = 0;
-      for (const Point2D& p : part.points) sum += distanceToOutline(box, p);
-      if (sum <= kOff * static_cast<double>(part.points.size())) join(own, part, look.laser);
-    }
-    return own;
-  }
-
-  static void join(Thing& all, const Thing& part, const Point2D& laser)
-  {
-    if (all.points.empty())
-    {
-      all = part;
-      return;
-    }
-    // Clusters come by rising angle, but one may lie across the end of the circle.
-    const auto towards = [&](const Point2D& p) { return std::atan2(p.y - laser.y, p.x - laser.x); };
-    const bool after =
-        math::wrapToPi(towards(part.points.front()) - towards(all.points.front())) > 0;
-    (after ? all.left : all.right) = after ? part.left : part.right;
-    all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-    all.beams.insert(all.beams.end(), part.beams.begin(), part.beams.end());
   }
 
   /// Things that are no boxes: candidates, and what is followed by its middle.
-  void followPoints(std::vector<Thing>& things, const Look& look, std::vector<bool>& moving)
+  void followPoints(const std::vector<Thing>& things, const Look& look, std::vector<bool>& moving)
   {
-    constexpr double kGate = 0.3;  // [m]
-    struct Pair
+    std::vector<bool> used(things.size(), false);
+    for (const PointPair& pair : pairPoints(tracks_, things))
     {
-      double apart;
-      std::size_t track, thing;
-    };
-    std::vector<Pair> pairs;
-    for (std::size_t t = 0; t < tracks_.size(); ++t)
-      if (!tracks_[t].box())
-        for (std::size_t i = 0; i < things.size(); ++i)
-        {
-          const double apart = distance(tracks_[t].place(), things[i].centre);
-          if (apart < kGate + tracks_[t].deviation()) pairs.push_back({apart, t, i});
-        }
-    std::sort(pairs.begin(), pairs.end(),
-              [](const Pair& a, const Pair& b) {
-                return std::tie(a.apart, a.track, a.thing) < std::tie(b.apart, b.track, b.thing);
-              });
-    std::vector<bool> usedTrack(tracks_.size(), false), usedThing(things.size(), false);
-    for (const Pair& p : pairs)
-    {
-      if (usedTrack[p.track] || usedThing[p.thing]) continue;
-      usedTrack[p.track] = usedThing[p.thing] = true;
-      MovingTrack& t = tracks_[p.track];
-      t.see(things[p.thing], look.laser, look.time, options_);
+      const Thing& thing = things[pair.thing];
+      MovingTrack& t = tracks_[pair.track];
+      used[pair.thing] = true;
+      t.see(thing, look, options_);
       const bool maybe = !t.isMoving() || options_.shape == Shape::kRectangle;
-      if (maybe && t.hasMoved(vacatedPart(t.before(), look), options_)) believe(t);
+      if (maybe && t.hasMoved(freePartOf(t.before(), look, space_), options_)) believe(t);
       if (t.isMoving())
-        for (const std::size_t b : things[p.thing].beams) moving[b] = true;
+        for (const std::size_t b : thing.beams) moving[b] = true;
     }
     for (std::size_t i = 0; i < things.size(); ++i)
-      if (!usedThing[i] && things[i].isWhole) tracks_.emplace_back(things[i], look.time, options_);
+      if (!used[i] && things[i].isWhole) tracks_.emplace_back(things[i], look.time, options_);
   }
 
   /// What it left behind while it was a candidate never stood there.
@@ -313,33 +109,13 @@ class MovingObjects::Impl
     t.confirm(t.isMoving() ? t.id() : nextId_++, options_);
   }
 
-  /// A thing that most beams pass, where it is thought to be, is not there.
-  void lookThrough(const core::LaserScan& scan, const Look& look, double laserHeading)
+  void lookThrough(const Look& look)
   {
-    constexpr double kCore = 0.1;  // [m] around its middle: beams near its ends may miss it
     for (MovingTrack& t : tracks_)
-    {
       if (!t.isMoving() || t.lastSeen() == look.time)
-      {
         t.seenThrough = 0;
-        continue;
-      }
-      const Point2D at = t.place();
-      const double range = distance(at, look.laser);
-      const double bearing = std::atan2(at.y - look.laser.y, at.x - look.laser.x) - laserHeading;
-      const int reach = static_cast<int>(std::atan2(kCore, range) / look.beamStep);
-      int through = 0, stopped = 0;
-      for (int k = -reach; k <= reach; ++k)
-      {
-        const double i = math::wrapToPi(bearing - scan.angleMin - math::kPi) / scan.angleStep +
-                         math::kPi / scan.angleStep + k;
-        if (i < 0 || i >= static_cast<double>(scan.ranges.size())) continue;
-        const double r = scan.ranges[static_cast<std::size_t>(i)];
-        if (!(r > 0) || r >= scan.rangeMax) continue;
-        ++(r > range + 0.5 * options_.maxSize ? through : stopped);
-      }
-      t.seenThrough = through > stopped ? t.seenThrough + 1 : t.seenThrough;
-    }
+      else if (look.goesThrough(t.place(), 0.5 * options_.maxSize))
+        ++t.seenThrough;
   }
 
   void forget(double time)

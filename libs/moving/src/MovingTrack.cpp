@@ -77,26 +77,26 @@ void MovingTrack::widen(const Point2D& robot, const Matrix3& cov)
     models::ConstantVelocityTarget::widen(point_, added);
 }
 
-BoxState MovingTrack::fitted(const Thing& thing, const Point2D& laser,
+BoxState MovingTrack::fitted(const Thing& thing, const Look& look,
                              const MovingOptions& options) const
 {
-  return correct(*box_, {laser, thing.points, thing.right, thing.left}, options);
+  return correct(*box_, {{look.laser.x, look.laser.y}, thing.points, thing.right, thing.left},
+                 options);
 }
 
-void MovingTrack::see(const Thing& thing, const Point2D& laser, double time,
-                      const MovingOptions& options)
+void MovingTrack::see(const Thing& thing, const Look& look, const MovingOptions& options)
 {
-  lastSeen_ = time;
+  lastSeen_ = look.time;
   if (box_)
   {
-    *box_ = fitted(thing, laser, options);
+    *box_ = fitted(thing, look, options);
     return;
   }
   const Vector2 nu(thing.centre.x - point_.x[0], thing.centre.y - point_.x[1]);
   const Matrix2 S = point_.pointCov() + kCentreStd * kCentreStd * Matrix2::Identity();
   point_.correct<2>(nu, S, Matrix2::Identity());
-  lately_.push_back({time, thing.centre, thing.freePart, thing.points});
-  while (lately_.front().time < time - options.confirmTime) lately_.pop_front();
+  lately_.push_back({look.time, thing.centre, thing.freePart, thing.points});
+  while (lately_.front().time < look.time - options.confirmTime) lately_.pop_front();
 }
 
 std::vector<std::vector<Point2D>> MovingTrack::trail() const

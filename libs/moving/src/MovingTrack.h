@@ -7,21 +7,10 @@
 
 #include <deque>
 
-#include "boxBeams.h"
+#include "Thing.h"
 
 namespace slamot::moving
 {
-/// A small thing in a scan, in the tracks' axes.
-struct Thing
-{
-  std::vector<Point2D> points;     ///< [m]
-  std::vector<std::size_t> beams;  ///< of the points
-  Point2D centre;                  ///< halfway between its ends, or its mean where that is more [m]
-  std::optional<End> right, left;  ///< where it ends
-  bool isWhole = false;            ///< nothing nearer hides its ends
-  double freePart = 0;             ///< of its points, those where nothing was
-};
-
 /// What is followed: at first a point, its middle; once it has moved, a box.
 class MovingTrack
 {
@@ -35,10 +24,10 @@ class MovingTrack
   /// The robot, at a place, moved by an increment with this covariance, in the tracks' axes: what
   /// is seen from it is as uncertain.
   void widen(const Point2D& robot, const Matrix3& cov);
-  void see(const Thing& thing, const Point2D& laser, double time, const MovingOptions& options);
+  void see(const Thing& thing, const Look& look, const MovingOptions& options);
 
   /// What the box would become.  There must be one.
-  [[nodiscard]] BoxState fitted(const Thing& thing, const Point2D& laser,
+  [[nodiscard]] BoxState fitted(const Thing& thing, const Look& look,
                                 const MovingOptions& options) const;
 
   [[nodiscard]] bool isMoving() const { return id_ != core::kNoId; }

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <slamot/core/FilterRegistry.h>
+#include <slamot/moving/MovingObjects.h>
+#include <slamot/scans/ScanSlam.h>
+
+#include <optional>
+
+namespace slamot::scans
+{
+/// `scan-slamot`: the robot's pose and path by odometry and laser scans, as `scan-slam`, and what
+/// moves in the scans followed by laser alone.  Beams that meet what moves are neither matched nor
+/// kept, and what moves is seen from where the scan was matched.  With `ego = odometry` the robot
+/// goes by dead reckoning.
+class ScanSlamotFilter : public core::Filter
+{
+ public:
+  ScanSlamotFilter(core::Params& params, const core::FilterContext& context);
+
+  core::Update process(const core::Step& step) override;
+  [[nodiscard]] core::Estimate estimate() const override { return estimate_; }
+  /// Empty with `ego = odometry`.
+  [[nodiscard]] std::vector<core::PathPose> path() const override;
+
+ private:
+  void moveBy(const core::Step& step, double dt);
+  void matchStanding(const std::vector<Return>& returns, const core::Step& step);
+
+  Settings settings_;
+  std::optional<ScanSlam> slam_;  // none: dead reckoning
+  moving::MovingObjects objects_;
+  core::Estimate estimate_;
+};
+}  // namespace slamot::scans
