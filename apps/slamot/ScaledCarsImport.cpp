@@ -53,6 +53,8 @@ void ScaledCarsImport::addTo(CLI::App& command)
           "Of the cars' truth: aligned with how they drive, as logged, or none")
       ->check(CLI::IsMember({"aligned", "logged", "none"}))
       ->default_str("aligned");
+  command.add_flag("--target-starts", o.targetStarts,
+                   "Tell filters also where the targets truly start");
   addCar(command, o);
 }
 }  // namespace slamot::apps

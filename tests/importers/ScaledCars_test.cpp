@@ -133,6 +133,21 @@ TEST(ScaledCars, TrueHeadingsAreAlignedWithDriving)
               [&] { (void)openScaledCars(folder.file(""), options); });
 }
 
+TEST(ScaledCars, TellsWhereTargetsStartIfAskedTo)
+{
+  const TemporaryFolder folder;
+  writeCars(folder);
+  Options options;
+  EXPECT_TRUE(openScaledCars(folder.file(""), options)->starts().targets.empty());
+  options.targetStarts = true;
+  const auto import = openScaledCars(folder.file(""), options);
+  const auto steps = stepsOf(*import);
+  const Pose2D first = import->truth().targets.at(1).poses.front().pose;
+  const core::ObjectStart& start = import->starts().targets.at(1);
+  EXPECT_NEAR(*start.value[core::ObjectStart::kX], first.x, 1e-12);
+  EXPECT_NEAR(*start.value[core::ObjectStart::kY], first.y, 1e-12);
+}
+
 TEST(ScaledCars, AHeadingThatDrivingDoesNotExplainIsUnknown)
 {
   const TemporaryFolder folder;

@@ -102,7 +102,7 @@ TEST(BoxFit, FindsTheBoxFromAVaguePrediction)
     {
       const double std = std::sqrt(found.P(i, i));
       EXPECT_LT(std::abs(error[i]), 3 * std) << "heading " << phi << ", coordinate " << i;
-      EXPECT_LT(std, 0.05) << "heading " << phi << ", coordinate " << i;
+      EXPECT_LT(std, std::sqrt(guess.P(i, i)) / 1.5) << "heading " << phi << ", coordinate " << i;
     }
   }
 }

@@ -94,11 +94,21 @@ class ScaledCars : public Import
                         pose ? "the true heading at the first odometry is not known"
                              : "there is no truth at the first odometry",
                         "import with --start origin");
+    starts_.robot = startAt(*pose);
+    if (!options_.targetStarts) return;
+    for (const auto& [id, path] : targets_)
+      if (const auto at = path.at(time_, kLongestTruthGap)) starts_.targets[id] = startAt(*at);
+  }
+
+  [[nodiscard]] static core::ObjectStart startAt(const eval::TimedPose& at)
+  {
     constexpr double kPlaceStd = 0.005, kHeadingStd = 0.01;  // [m, rad]
-    core::ObjectStart& start = starts_.robot.emplace();
-    start.value[start.kX] = pose->pose.x, start.std[start.kX] = kPlaceStd;
-    start.value[start.kY] = pose->pose.y, start.std[start.kY] = kPlaceStd;
-    start.value[start.kTheta] = pose->pose.phi, start.std[start.kTheta] = kHeadingStd;
+    core::ObjectStart start;
+    start.value[start.kX] = at.pose.x, start.std[start.kX] = kPlaceStd;
+    start.value[start.kY] = at.pose.y, start.std[start.kY] = kPlaceStd;
+    if (!at.headingKnown) return start;
+    start.value[start.kTheta] = at.pose.phi, start.std[start.kTheta] = kHeadingStd;
+    return start;
   }
 
   void dropScan()

@@ -36,6 +36,9 @@ class MovingObjects::Impl
   std::vector<bool> see(double time, const core::LaserScan& scan)
   {
     const Look look(time, robot_, scan);
+    if (!hasSeen_)
+      for (MovingTrack& t : tracks_) t.expectFrom(time);
+    hasSeen_ = true;
     const auto clusters = perception::clustersOf(scan, options_.laser);
     std::vector<bool> moving(scan.ranges.size(), false);
     const Claims claims = claim(clusters, tracks_, look, space_, options_);
@@ -152,6 +155,7 @@ class MovingObjects::Impl
   FreeSpace space_;
   Pose2D robot_;
   std::vector<MovingTrack> tracks_;
+  bool hasSeen_ = false;
   std::set<int> taken_;  // by starts
   int nextId_ = 0;
 };

@@ -20,6 +20,8 @@ class MovingTrack
   /// A target whose start is known; without a heading it is a point until it moves.
   MovingTrack(int id, const core::ObjectStart& start, double time, const MovingOptions& options);
 
+  /// Nobody has looked for it before this time [s].
+  void expectFrom(double time) { lastSeen_ = time; }
   void predict(double dt, const MovingOptions& options);
   /// The robot, at a place, moved by an increment with this covariance, in the tracks' axes: what
   /// is seen from it is as uncertain.

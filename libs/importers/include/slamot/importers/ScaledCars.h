@@ -30,6 +30,7 @@ struct ScaledCarsOptions
   WheelNoise wheels{0.02, 0.02, math::degToRad(0.3), 0.003};
 
   bool startFromTruth = true;  ///< start in the truth's frame; else at the origin, exactly
+  bool targetStarts = false;   ///< tell also where the targets truly start
   enum class TrueHeading
   {
     kAligned,
