@@ -238,6 +238,20 @@ TEST(MovingObjects, ATargetThatVanishesInPlainViewIsDropped)
   EXPECT_TRUE(moments.back().targets.empty());
 }
 
+TEST(MovingObjects, ATargetIsDroppedAlsoWhereNoScanComesAnyMore)
+{
+  core::Starts starts;
+  starts.targets[3].value[core::ObjectStart::kX] = 1;
+  MovingObjects objects(MovingOptions{}, starts);
+  objects.move({{}, Matrix3::Zero()}, 10);  // before the first scan it waits
+  EXPECT_EQ(objects.targets({}).size(), 1u);
+  objects.see(10, moving::test::lookRound(Room{}.at(0), {}, 0.01, 1));
+  objects.move({{}, Matrix3::Zero()}, 1);
+  EXPECT_EQ(objects.targets({}).size(), 1u);
+  objects.move({{}, Matrix3::Zero()}, 1.5);
+  EXPECT_TRUE(objects.targets({}).empty());
+}
+
 TEST(MovingObjects, TheRobotsUncertaintyIsItsTargetsToo)
 {
   Room room;

@@ -31,13 +31,14 @@ class MovingObjects::Impl
       t.predict(dt, options_);
       t.widen({robot_.x, robot_.y}, cov);
     }
+    if (hasSeen_) dropIf([&](const MovingTrack& t) { return t.isMoving() && isUnseen(t); });
   }
 
   std::vector<bool> see(double time, const core::LaserScan& scan)
   {
     const Look look(time, robot_, scan);
     if (!hasSeen_)
-      for (MovingTrack& t : tracks_) t.expectFrom(time);
+      for (MovingTrack& t : tracks_) t.expectNow();
     hasSeen_ = true;
     const auto clusters = perception::clustersOf(scan, options_.laser);
     std::vector<bool> moving(scan.ranges.size(), false);
@@ -49,7 +50,8 @@ class MovingObjects::Impl
       for (const auto& p : c.points)
         space_.add({look.laser.x, look.laser.y}, look.at(p), !moving[p.beam], time);
     space_.tidy(time);
-    forget(time);
+    dropIf([&](const MovingTrack& t)
+           { return isUnseen(t) || t.seenThrough >= options_.seenThrough; });
     return moving;
   }
 
@@ -115,21 +117,21 @@ class MovingObjects::Impl
   void lookThrough(const Look& look)
   {
     for (MovingTrack& t : tracks_)
-      if (!t.isMoving() || t.lastSeen() == look.time)
+      if (!t.isMoving() || t.unseen() == 0)
         t.seenThrough = 0;
       else if (look.goesThrough(t.place(), 0.5 * options_.maxSize))
         ++t.seenThrough;
   }
 
-  void forget(double time)
+  [[nodiscard]] bool isUnseen(const MovingTrack& t) const
   {
-    const auto isLost = [&](const MovingTrack& t)
-    {
-      const double unseen = time - t.lastSeen();
-      return !t.isMoving() ? unseen > options_.tentativeTime
-                           : unseen > options_.lostTime || t.seenThrough >= options_.seenThrough;
-    };
-    tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), isLost), tracks_.end());
+    return t.unseen() > (t.isMoving() ? options_.lostTime : options_.tentativeTime);
+  }
+
+  template <class Is>
+  void dropIf(const Is& is)
+  {
+    tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), is), tracks_.end());
   }
 
   [[nodiscard]] core::TargetEstimate inMap(core::TargetEstimate t,

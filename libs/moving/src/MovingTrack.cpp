@@ -58,6 +58,7 @@ MovingTrack::MovingTrack(int id, const core::ObjectStart& start, double time,
 
 void MovingTrack::predict(double dt, const MovingOptions& options)
 {
+  unseen_ += dt;
   if (box_)
     moving::predict(*box_, dt, options);
   else
@@ -87,6 +88,7 @@ BoxState MovingTrack::fitted(const Thing& thing, const Look& look,
 void MovingTrack::see(const Thing& thing, const Look& look, const MovingOptions& options)
 {
   lastSeen_ = look.time;
+  unseen_ = 0;
   if (box_)
   {
     *box_ = fitted(thing, look, options);

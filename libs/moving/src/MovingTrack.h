@@ -20,8 +20,8 @@ class MovingTrack
   /// A target whose start is known; without a heading it is a point until it moves.
   MovingTrack(int id, const core::ObjectStart& start, double time, const MovingOptions& options);
 
-  /// Nobody has looked for it before this time [s].
-  void expectFrom(double time) { lastSeen_ = time; }
+  /// Nobody has looked for it before.
+  void expectNow() { unseen_ = 0; }
   void predict(double dt, const MovingOptions& options);
   /// The robot, at a place, moved by an increment with this covariance, in the tracks' axes: what
   /// is seen from it is as uncertain.
@@ -47,7 +47,8 @@ class MovingTrack
   [[nodiscard]] Point2D place() const;
   /// Of its place [m].
   [[nodiscard]] double deviation() const;
-  [[nodiscard]] double lastSeen() const { return lastSeen_; }
+  /// Time since it was last seen [s].
+  [[nodiscard]] double unseen() const { return unseen_; }
   /// In the tracks' axes.
   [[nodiscard]] core::TargetEstimate estimate(const MovingOptions& options) const;
 
@@ -67,6 +68,6 @@ class MovingTrack
   std::deque<Was> lately_;  // where it was seen, as a point
   int id_ = core::kNoId;
   bool identified_ = false;
-  double lastSeen_ = 0;
+  double lastSeen_ = 0, unseen_ = 0;
 };
 }  // namespace slamot::moving
