@@ -78,3 +78,32 @@ TEST(FreeSpace, NegativeCoordinatesHaveCellsOfTheirOwn)
   space.forget({-2.05, -0.05});
   EXPECT_FALSE(space.isOccupied({-2.05, -0.05}, 0));
 }
+
+TEST(FreeSpace, IsCountedFromItsOriginHoweverFarThatIs)
+{
+  const Point2D far{4.5e9, -3e9};
+  FreeSpace space(FreeSpace::Options{}, far);
+  space.add(far, {far.x + 3.05, far.y + 0.05}, true, 0);
+  EXPECT_TRUE(space.isOccupied({far.x + 3.05, far.y + 0.05}, 0));
+  EXPECT_FALSE(space.isOccupied({far.x + 2.85, far.y + 0.05}, 0));
+  EXPECT_FALSE(space.isOccupied({1e300, -1e300}, 0));  // no cell there, and no overflow
+}
+
+// The looks of one scan count once, also at the limit of what is counted.
+TEST(FreeSpace, AReturnWinsOverABeamOfTheSameScan)
+{
+  const auto looksUntilOccupied = [](bool passedFirst)
+  {
+    FreeSpace space = lookedAlong(20, 6.05);
+    int scans = 0;
+    while (!space.isOccupied({3.05, 0.05}, 20 + scans) && scans < 20)
+    {
+      space.tidy(20 + scans);
+      if (passedFirst) space.add({0, 0.05}, {6.05, 0.05}, true, 20 + scans);
+      space.add({0, 0.05}, {3.05, 0.05}, true, 20 + scans);
+      ++scans;
+    }
+    return scans;
+  };
+  EXPECT_EQ(looksUntilOccupied(true), looksUntilOccupied(false));
+}

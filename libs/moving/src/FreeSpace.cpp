@@ -16,9 +16,10 @@ FreeSpace::Key FreeSpace::keyOf(int x, int y) const
   return (static_cast<Key>(static_cast<std::uint32_t>(x)) << 32U) | static_cast<std::uint32_t>(y);
 }
 
-int FreeSpace::indexOf(double v) const
+int FreeSpace::indexOf(double along) const
 {
-  return static_cast<int>(std::floor(v / options_.cell));
+  constexpr double kFarthest = 1e9;  // cells
+  return static_cast<int>(std::clamp(std::floor(along / options_.cell), -kFarthest, kFarthest));
 }
 
 float FreeSpace::oddsAt(int x, int y, double time) const
@@ -30,7 +31,7 @@ float FreeSpace::oddsAt(int x, int y, double time) const
 
 Evidence FreeSpace::at(const Point2D& p, double range, double time) const
 {
-  const int x = indexOf(p.x), y = indexOf(p.y);
+  const int x = column(p), y = row(p);
   const int reach = static_cast<int>(std::lround(marginAt(range) / options_.cell));
   for (int dx = -reach; dx <= reach; ++dx)
     for (int dy = -reach; dy <= reach; ++dy)
@@ -40,7 +41,7 @@ Evidence FreeSpace::at(const Point2D& p, double range, double time) const
 
 bool FreeSpace::isOccupied(const Point2D& p, double time) const
 {
-  return oddsAt(indexOf(p.x), indexOf(p.y), time) > kOccupiedAbove;
+  return oddsAt(column(p), row(p), time) > kOccupiedAbove;
 }
 
 void FreeSpace::change(int x, int y, bool occupied, double time)
@@ -51,11 +52,12 @@ void FreeSpace::change(int x, int y, bool occupied, double time)
   if (cell.scan == scan_)
   {
     if (!occupied || cell.hit) return;
-    cell.odds -= kMiss;
   }
+  else
+    cell.before = cell.odds;
   cell.scan = scan_;
   cell.hit = occupied;
-  cell.odds = std::clamp(cell.odds + (occupied ? kHit : kMiss), -kMost, kMost);
+  cell.odds = std::clamp(cell.before + (occupied ? kHit : kMiss), -kMost, kMost);
 }
 
 // Samples at half a cell: a corner that is cut is free all the same.
@@ -67,8 +69,8 @@ void FreeSpace::passThrough(const Point2D& laser, const Point2D& end, double tim
   bool any = false;
   for (double along = 0; along < length - marginAt(length); along += step)
   {
-    const int x = indexOf(laser.x + dx * along / length),
-              y = indexOf(laser.y + dy * along / length);
+    const Point2D at{laser.x + dx * along / length, laser.y + dy * along / length};
+    const int x = column(at), y = row(at);
     if (any && x == lastX && y == lastY) continue;
     change(x, y, false, time);
     lastX = x, lastY = y, any = true;
@@ -78,12 +80,12 @@ void FreeSpace::passThrough(const Point2D& laser, const Point2D& end, double tim
 void FreeSpace::add(const Point2D& laser, const Point2D& end, bool counts, double time)
 {
   passThrough(laser, end, time);
-  if (counts) change(indexOf(end.x), indexOf(end.y), true, time);
+  if (counts) change(column(end), row(end), true, time);
 }
 
 void FreeSpace::forget(const Point2D& p)
 {
-  cells_.erase(keyOf(indexOf(p.x), indexOf(p.y)));
+  cells_.erase(keyOf(column(p), row(p)));
 }
 
 void FreeSpace::tidy(double time)

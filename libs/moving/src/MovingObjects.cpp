@@ -11,7 +11,9 @@ class MovingObjects::Impl
 {
  public:
   Impl(const MovingOptions& options, const core::Starts& starts)
-      : options_(options), space_(options.freeSpace), robot_(starts.robotPose().mean)
+      : options_(options),
+        space_(options.freeSpace, {starts.robotPose().mean.x, starts.robotPose().mean.y}),
+        robot_(starts.robotPose().mean)
   {
     for (const auto& [id, start] : starts.targets)
     {
@@ -148,7 +150,9 @@ class MovingObjects::Impl
     t.pose.cov = (0.5 * (t.pose.cov + t.pose.cov.transpose())).eval();
     const Matrix2 r = R.topLeftCorner<2, 2>();
     t.velocity = (r * t.velocity).eval();
-    t.velocityCov = (r * t.velocityCov * r.transpose()).eval();
+    const Vector2 across(-t.velocity[1], t.velocity[0]);
+    t.velocityCov =
+        (r * t.velocityCov * r.transpose() + robot.cov(2, 2) * across * across.transpose()).eval();
     t.velocityCov = (0.5 * (t.velocityCov + t.velocityCov.transpose())).eval();
     return t;
   }

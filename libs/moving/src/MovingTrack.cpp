@@ -97,6 +97,8 @@ void MovingTrack::see(const Thing& thing, const Look& look, const MovingOptions&
   const Vector2 nu(thing.centre.x - point_.x[0], thing.centre.y - point_.x[1]);
   const Matrix2 S = point_.pointCov() + kCentreStd * kCentreStd * Matrix2::Identity();
   point_.correct<2>(nu, S, Matrix2::Identity());
+  // What several lasers see at one instant counts once.
+  if (!lately_.empty() && lately_.back().time == look.time) lately_.pop_back();
   lately_.push_back({look.time, thing.centre, thing.freePart, thing.points});
   while (lately_.front().time < look.time - options.confirmTime) lately_.pop_front();
 }

@@ -54,7 +54,8 @@ bool Look::goesThrough(const Point2D& p, double depth) const
   const double turn = math::wrapToPi(towards(p) - laser.phi - scan->angleMin);
   const double ahead = std::copysign(1.0, scan->angleStep) * turn;
   const double middle = (ahead < 0 ? ahead + math::kTwoPi : ahead) / beamStep;
-  const int reach = static_cast<int>(std::atan2(kCore, range) / beamStep);
+  const auto most = static_cast<double>(scan->ranges.size());
+  const int reach = static_cast<int>(std::min(std::atan2(kCore, range) / beamStep, most));
   int through = 0, stopped = 0;
   for (int k = -reach; k <= reach; ++k)
   {

@@ -40,6 +40,7 @@ struct ScanSlam::State
   Keyframes keyframes;             // the first is the start, where nothing was seen yet
   Gaussian<Pose2D> base, since;    // of the last keyframe; of the robot from there
   std::optional<LocalMap> recent;  // in the frame of the last keyframe
+  double blind = 0;                // time without odometry or a match [s]
   std::vector<Noted> noted;
   Counts counts;
 
@@ -87,7 +88,7 @@ struct ScanSlam::State
     graph.optimise(before);
     graph.optimise();
     for (const Relation& loop : loops)
-      if (graph.trust(loop) < kLeastTrust)
+      if (!(graph.trust(loop) >= kLeastTrust))
       {
         graph.restore(before, poses);
         counts.refused += static_cast<int>(loops.size());
@@ -112,14 +113,21 @@ void ScanSlam::move(const Gaussian<Pose2D>& increment)
 {
   const double scale = state_->settings.odometryScale;
   state_->since = math::compose(state_->since, {increment.mean, scale * scale * increment.cov});
+  state_->blind = 0;
+}
+
+// An unknown speed goes on: over several steps it adds up as over one.
+Gaussian<Pose2D> blindMotion(double since, double dt, const Settings& settings)
+{
+  const double squares = dt * (2 * since + dt);
+  const double v = settings.blindSpeed, w = settings.blindTurn;
+  return {{}, Vector3(v * v * squares, v * v * squares, w * w * squares).asDiagonal()};
 }
 
 void ScanSlam::wait(double dt)
 {
-  const double v = state_->settings.blindSpeed * dt, w = state_->settings.blindTurn * dt;
-  Gaussian<Pose2D> still;
-  still.cov.diagonal() = Vector3(v * v, v * v, w * w);
-  state_->since = math::compose(state_->since, still);
+  state_->since = math::compose(state_->since, blindMotion(state_->blind, dt, state_->settings));
+  state_->blind += dt;
 }
 
 Match ScanSlam::match(const std::vector<Return>& returns)
@@ -129,7 +137,7 @@ Match ScanSlam::match(const std::vector<Return>& returns)
   State& s = *state_;
   const Match out = s.matcher.match(s.recentMap(), thinned(points, s.settings.thinning), s.since,
                                     s.settings.reach);
-  if (out.matched) s.since = out.pose;
+  if (out.matched) s.since = out.pose, s.blind = 0;
   ++(out.matched ? s.counts.matched : s.counts.unmatched);
   return out;
 }

@@ -21,13 +21,13 @@ core::Update ScanSlamFilter::process(const core::Step& step)
 {
   core::checkStep(step, estimate_.time);
   if (step.odometry)
-    slam_.move(*step.odometry);
+    slam_.move(share_.next(*step.odometry, step.time));
   else if (std::isfinite(estimate_.time))
     slam_.wait(step.time - estimate_.time);
   const std::vector<Return> returns = returnsOf(step.lasers, maxRange_);
   if (!returns.empty())
   {
-    slam_.match(returns);
+    if (slam_.match(returns).matched) share_.matched(step.time);
     slam_.insert(returns);
   }
   if (step.odometry) slam_.note(step.time);

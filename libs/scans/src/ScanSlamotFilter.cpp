@@ -8,13 +8,6 @@ namespace slamot::scans
 {
 namespace
 {
-/// Motion over a time that odometry tells nothing of.
-Gaussian<Pose2D> blindMotion(double dt, const Settings& settings)
-{
-  const double way = settings.blindSpeed * dt, turn = settings.blindTurn * dt;
-  return {{}, Vector3(way * way, way * way, turn * turn).asDiagonal()};
-}
-
 /// By beam of all lasers, one after another.
 template <class MaskOf>
 std::vector<bool> maskOfAll(const core::Step& step, const MaskOf& maskOf)
@@ -47,7 +40,9 @@ std::vector<core::PathPose> ScanSlamotFilter::path() const
 
 void ScanSlamotFilter::moveBy(const core::Step& step, double dt)
 {
-  const auto motion = step.odometry.value_or(blindMotion(dt, settings_));
+  const auto motion =
+      step.odometry ? share_.next(*step.odometry, step.time) : blindMotion(blind_, dt, settings_);
+  blind_ = step.odometry ? 0 : blind_ + dt;
   objects_.move(motion, dt);
   if (!slam_)
     estimate_.robot = math::compose(estimate_.robot, motion);
@@ -66,7 +61,7 @@ void ScanSlamotFilter::matchStanding(const std::vector<Return>& returns, const c
     if (!expected[r.beam]) standing.push_back(r);
   if (standing.empty()) return;
   const Pose2D before = slam_->pose().mean;
-  slam_->match(standing);
+  if (slam_->match(standing).matched) share_.matched(step.time), blind_ = 0;
   objects_.move({math::between(before, slam_->pose().mean), Matrix3::Zero()}, 0);
 }
 

@@ -17,9 +17,13 @@ std::vector<Point2D> pointsOf(const Keyframes& keyframes, const PoseGraph& graph
 std::pair<std::size_t, std::size_t> around(const Keyframes& keyframes, std::size_t node,
                                            double stretch)
 {
+  constexpr std::size_t kMost = 60;  // a robot that turns on the spot adds no path
   std::size_t first = node, last = node;
-  while (first > 0 && keyframes[node].path - keyframes[first - 1].path <= stretch) --first;
-  while (last + 1 < keyframes.size() && keyframes[last + 1].path - keyframes[node].path <= stretch)
+  while (first > 0 && node - first < kMost &&
+         keyframes[node].path - keyframes[first - 1].path <= stretch)
+    --first;
+  while (last + 1 < keyframes.size() && last - node < kMost &&
+         keyframes[last + 1].path - keyframes[node].path <= stretch)
     ++last;
   return {first, last};
 }

@@ -19,7 +19,8 @@ using Keyframes = std::vector<Keyframe>;
                                             std::size_t first, std::size_t last,
                                             const Pose2D& frame);
 
-/// The keyframes around `node`, at most `stretch` [m] of path before and after.
+/// The keyframes around `node`, at most `stretch` [m] of path, and sixty, before
+/// and after.
 [[nodiscard]] std::pair<std::size_t, std::size_t> around(const Keyframes& keyframes,
                                                          std::size_t node, double stretch);
 }  // namespace slamot::scans

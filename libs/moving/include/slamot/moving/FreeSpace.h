@@ -30,7 +30,11 @@ class FreeSpace
     double remember = 15.0;         ///< a cell not seen for longer is unknown [s]
   };
 
-  explicit FreeSpace(const Options& options) : options_(options) {}
+  /// \param origin near what is looked at: cells are counted from there.
+  explicit FreeSpace(const Options& options, const Point2D& origin = {0, 0})
+      : options_(options), origin_(origin)
+  {
+  }
 
   /// \param range at which the place is seen [m].
   [[nodiscard]] Evidence at(const Point2D& p, double range, double time) const;
@@ -46,14 +50,17 @@ class FreeSpace
  private:
   struct Cell
   {
-    float odds = 0;          // log odds of being occupied
+    float odds = 0,
+          before = 0;        // log odds of being occupied, and what they were before its last scan
     bool hit = false;        // in its last scan, of which each counts once, and a return wins
     std::uint32_t scan = 0;  // the last scan
     double seen = 0;         // [s]
   };
   using Key = std::uint64_t;
   [[nodiscard]] Key keyOf(int x, int y) const;
-  [[nodiscard]] int indexOf(double v) const;
+  [[nodiscard]] int indexOf(double along) const;
+  [[nodiscard]] int column(const Point2D& p) const { return indexOf(p.x - origin_.x); }
+  [[nodiscard]] int row(const Point2D& p) const { return indexOf(p.y - origin_.y); }
   [[nodiscard]] float oddsAt(int x, int y, double time) const;
   [[nodiscard]] double marginAt(double range) const
   {
@@ -63,6 +70,7 @@ class FreeSpace
   void change(int x, int y, bool occupied, double time);
 
   Options options_;
+  Point2D origin_;
   std::unordered_map<Key, Cell> cells_;
   std::uint32_t scan_ = 1;
 };

@@ -37,7 +37,7 @@ struct MovingOptions
   double confirmDistance = 0.3;  ///< to have moved [m]
   double confirmTime = 1.0;      ///< within this [s]
   int confirmScans = 4;          ///< to have been seen in
-  double confirmFree = 0.3;      ///< part of its returns that must lie where nothing was, or where
+  double confirmFree = 0.4;      ///< part of its returns that must lie where nothing was, or where
                                  ///< nothing is any more
   double tentativeTime = 0.5;    ///< unseen until dropped, before it has moved [s]
   double lostTime = 2.0;         ///< the same after [s]

@@ -8,6 +8,9 @@
 
 namespace slamot::scans
 {
+/// The motion over dt [s] of which odometry tells nothing, after `since` [s] of the like.
+[[nodiscard]] Gaussian<Pose2D> blindMotion(double since, double dt, const Settings& settings);
+
 /// Localization and mapping by laser scans, a piece at a time: motion, then a scan is matched, then
 /// what of it stands still is kept.  A scan is matched with those of the last stretch of path; what
 /// is kept becomes nodes of a pose graph, in which loops are closed.  Lu and Milios, "Globally

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <slamot/core/FilterRegistry.h>
+#include <slamot/scans/OdometryShare.h>
 #include <slamot/scans/ScanSlam.h>
 
 namespace slamot::scans
@@ -22,6 +23,7 @@ class ScanSlamFilter : public core::Filter
 
   double maxRange_;
   ScanSlam slam_;
+  OdometryShare share_;
   core::Estimate estimate_;
 };
 }  // namespace slamot::scans

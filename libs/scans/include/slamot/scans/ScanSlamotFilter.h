@@ -2,6 +2,7 @@
 
 #include <slamot/core/FilterRegistry.h>
 #include <slamot/moving/MovingObjects.h>
+#include <slamot/scans/OdometryShare.h>
 #include <slamot/scans/ScanSlam.h>
 
 #include <optional>
@@ -29,6 +30,8 @@ class ScanSlamotFilter : public core::Filter
   Settings settings_;
   std::optional<ScanSlam> slam_;  // none: dead reckoning
   moving::MovingObjects objects_;
+  OdometryShare share_;
+  double blind_ = 0;  // time without odometry or a match [s]
   core::Estimate estimate_;
 };
 }  // namespace slamot::scans
