@@ -47,13 +47,16 @@ theirs()
 }
 quietly() { local text=$1; shift; "$@" </dev/null >"$text" 2>&1 || true; }
 
-ours()  # LOG NAME SEED
+# ours LOG NAME: the path as believed at each step as LOG-NAME-steps.tum, and as believed in the end as LOG-NAME.tum.
+ours()
 {
-  local folder=$out/$1-$2${3:+-$3} path
+  local folder=$out/$1-$2 path
   printf 'running %s\n' "$(basename "$folder")" >&2
-  timed "$folder" "$slamot" run "config-ini/$2.ini" "$out/$1.rawlog" -q ${3:+--seed "$3"} -o "$folder"
-  path=$folder/path/robot.tum  # all of it as believed at the end
+  timed "$folder" "$slamot" run "config-ini/$2.ini" "$out/$1.rawlog" -q -o "$folder"
+  path=$folder/path/robot.tum
   [ -r "$path" ] || path=$folder/robot.tum
+  cp "$folder.time" "$folder-steps.time"
+  cp "$folder/robot.tum" "$folder-steps.tum"
   cp "$path" "$folder.tum"
 }
 
@@ -83,7 +86,8 @@ row()
 run_all()  # LOG
 {
   local log=$1 seed
-  [ -r "$out/$log-dead-reckoning.tum" ] || ours "$log" dead-reckoning ''  # the others need its times
+  [ -r "$out/$log-dead-reckoning.tum" ] || ours "$log" dead-reckoning  # the others need its times
+  wanted "$log" scan-slam && ours "$log" scan-slam  # no chance in it
   wanted "$log" icp-slam-points && theirs icp-slam icp-slam.ini "$log" icp-slam-points log_estimated_path.txt
   wanted "$log" icp-slam-grid &&
     theirs icp-slam icp-slam.ini "$log" icp-slam-grid log_estimated_path.txt matchAgainstTheGrid=1
@@ -92,7 +96,6 @@ run_all()  # LOG
       theirs rbpf-slam rbpf-slam.ini "$log" rbpf-slam-icp-$seed most_likely_path.txt RANDOM_SEED=$seed
     wanted "$log" rbpf-slam-sampling-$seed && theirs rbpf-slam rbpf-slam.ini "$log" rbpf-slam-sampling-$seed \
       most_likely_path.txt RANDOM_SEED=$seed PF_algorithm=3
-    [ -r config-ini/scan-slam.ini ] && wanted "$log" scan-slam-$seed && ours "$log" scan-slam $seed
   done
   return 0
 }
@@ -101,11 +104,12 @@ print_all()  # LOG
 {
   local log=$1
   row "$log" 'dead-reckoning' dead-reckoning
+  row "$log" 'scan-slam, step by step' scan-slam-steps
+  row "$log" 'scan-slam, path in the end' scan-slam
   row "$log" '`icp-slam`, point map' icp-slam-points
   row "$log" '`icp-slam`, grid map' icp-slam-grid
   row "$log" '`rbpf-slam`, ICP' $(eval "echo rbpf-slam-icp-{1..$seeds}")
   row "$log" '`rbpf-slam`, sampling' $(eval "echo rbpf-slam-sampling-{1..$seeds}")
-  row "$log" 'scan-slam' $(eval "echo scan-slam-{1..$seeds}")
 }
 
 mkdir -p $out
@@ -125,6 +129,7 @@ logs+=(sena)
 ln -sf "$sena" $out/sena.rawlog
 ln -sf "$sena" $out/sena.mrpt.rawlog
 for log in "${logs[@]}"; do run_all "$log"; done
+table=$(for log in "${logs[@]}"; do print_all "$log"; done)
 printf '\n| log | method | relations: distance [m] | angle [deg] | mean map entropy | CPU [s] | wall [s] |\n'
 printf '| --- | --- | --- | --- | --- | --- | --- |\n'
-for log in "${logs[@]}"; do print_all "$log"; done
+printf '%s\n' "$table"
