@@ -15,9 +15,8 @@ namespace slamot::models
 ///
 /// Each of these tails is a Gaussian whose variance is itself random, the same for all coordinates
 /// of an error: so the law is kept as a sum of Gaussians N(0, factor R), with which every Kalman
-/// update and likelihood can work.  Within 13% of the exact density out to 50 scales (Student's, 2
-/// degrees of freedom) and 5 (Laplace's), where it is a thousandth of a thousandth of what it is at
-/// the middle.
+/// update and likelihood can work.  Within 15% of the exact density out to 50 scales (Student's, 2
+/// degrees of freedom) and to 5 (Laplace's).
 class NoiseLaw
 {
  public:
