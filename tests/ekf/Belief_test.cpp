@@ -60,6 +60,51 @@ TEST(Belief, UpdateIsTheKalmanFilters)
   EXPECT_LT(distance(s.belief.x(), x + K * nu), 1e-12);
 }
 
+TEST(Belief, LawWithoutOutliersIsTheKalmanFilters)
+{
+  const models::NoiseLaw normal({0, models::NoiseLaw::Tail::kStudent, 3, 2});
+  Scene plain, lawful;
+  std::vector<SightingRows> rows;
+  for (int k = 0; k < 4; ++k)
+    rows.push_back(randomRows(plain.belief.robot(0), plain.belief.landmark(k), plain.random));
+  const double expected = plain.belief.update(rows);
+  for (SightingRows& r : rows) r.law = &normal;
+  EXPECT_NEAR(lawful.belief.update(rows), expected, 1e-9);
+  EXPECT_LT(distance(dense(lawful.belief.P()), dense(plain.belief.P())), 1e-11);
+  EXPECT_LT(distance(lawful.belief.x(), plain.belief.x()), 1e-11);
+}
+
+// Of two Gaussians each, the first sighting's posterior has four: by hand, for one sighting.
+TEST(Belief, GlintIsTheMixtureOfItsUpdates)
+{
+  const models::NoiseLaw law({0.4, models::NoiseLaw::Tail::kGaussian, 4, 2});
+  Scene s;
+  const Eigen::MatrixXd P = dense(s.belief.P());
+  const Eigen::VectorXd x = s.belief.x();
+  SightingRows row = randomRows(s.belief.robot(0), s.belief.landmark(1), s.random);
+  row.law = &law;
+  const Eigen::MatrixXd H = denseRows({row}, s.belief.P().size());
+  double total = 0;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(x.size());
+  Eigen::MatrixXd second = Eigen::MatrixXd::Zero(x.size(), x.size());
+  for (const auto& g : law.components())
+  {
+    const Eigen::Matrix2d R = (g.factor * row.variance).asDiagonal();
+    const Eigen::Matrix2d S = H * P * H.transpose() + R;
+    const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
+    const double p = g.weight * std::exp(-0.5 * row.innovation.dot(S.inverse() * row.innovation)) /
+                     (math::kTwoPi * std::sqrt(S.determinant()));
+    const Eigen::VectorXd d = K * row.innovation;
+    total += p;
+    mean += p * d;
+    second += p * (P - K * S * K.transpose() + d * d.transpose());
+  }
+  mean /= total;
+  EXPECT_NEAR(s.belief.update({row}), std::log(total), 1e-10);
+  EXPECT_LT(distance(s.belief.x(), x + mean), 1e-11);
+  EXPECT_LT(distance(dense(s.belief.P()), second / total - mean * mean.transpose()), 1e-11);
+}
+
 TEST(Belief, MoveIsLinearInTheMovedCoordinates)
 {
   Scene s;

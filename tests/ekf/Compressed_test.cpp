@@ -46,13 +46,15 @@ void addLandmark(Belief& b, math::RandomStream& random)
   b.addLandmark(0, place, randomMatrix(2, 3, random));
 }
 
-void step(Belief& b, math::RandomStream& random, const std::vector<int>& seen)
+void step(Belief& b, math::RandomStream& random, const std::vector<int>& seen,
+          const models::NoiseLaw* law = nullptr)
 {
   b.move(0, b.x().segment<3>(0), randomMatrix(3, 3, random), randomCov(3, random));
   b.move(b.target(0), b.x().segment<4>(b.target(0)), 0.5 * randomMatrix(4, 4, random),
          randomCov(4, random));
   std::vector<SightingRows> rows{randomRows(0, b.target(0), random)};
   for (const int slot : seen) rows.push_back(randomRows(0, b.landmark(slot), random));
+  for (SightingRows& r : rows) r.law = law;
   b.update(rows);
 }
 
@@ -109,6 +111,21 @@ TEST(Compressed, EqualsThePlainFormWhateverIsLocal)
     }
     t.expectEqual();
   }
+}
+
+TEST(Compressed, TakesGlintAsThePlainFormDoes)
+{
+  const models::NoiseLaw law({0.3, models::NoiseLaw::Tail::kStudent, 3, 2});
+  Twins t;
+  t.both(start);
+  for (int k = 0; k < 8; ++k) t.both(addLandmark);
+  for (const std::vector<int>& local : {std::vector<int>{0, 3, 4}, std::vector<int>{1, 4, 7}})
+  {
+    t.compressed.focus(local);
+    for (int k = 0; k < 4; ++k)
+      t.both([&](Belief& b, math::RandomStream& random) { step(b, random, local, &law); });
+  }
+  t.expectEqual();
 }
 
 TEST(Compressed, FusesAsThePlainFormDoes)

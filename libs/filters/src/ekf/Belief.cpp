@@ -1,6 +1,7 @@
 #include "Belief.h"
 
 #include "Rest.h"
+#include "updateOneByOne.h"
 
 #include <slamot/core/Error.h>
 
@@ -155,14 +156,13 @@ Eigen::MatrixXd times(const std::vector<SightingRows>& rows, const Eigen::Matrix
 }
 }  // namespace
 
-double Belief::update(const std::vector<SightingRows>& rows)
+// W = P Hᵀ into W_.
+void Belief::spanOf(const std::vector<SightingRows>& rows)
 {
   const auto m = static_cast<Eigen::Index>(2 * rows.size());
   const int n = P_.size();
-  if (m == 0) return 0;
   W_.resize(n, m);
   column_.resize(n, 5);
-  Eigen::VectorXd nu(m), variance(m);
   int robot = -1;
   for (Eigen::Index k = 0; k < m; k += 2)
   {
@@ -171,8 +171,21 @@ double Belief::update(const std::vector<SightingRows>& rows)
     P_.columns(row.object, 2, column_.rightCols<2>());
     W_.middleCols<2>(k).noalias() = column_.leftCols<3>() * row.byRobot.transpose();
     W_.middleCols<2>(k).noalias() += column_.rightCols<2>() * row.byObject.transpose();
-    nu.segment<2>(k) = row.innovation;
-    variance.segment<2>(k) = row.variance;
+  }
+}
+
+double Belief::update(const std::vector<SightingRows>& rows)
+{
+  if (rows.empty()) return 0;
+  if (std::any_of(rows.begin(), rows.end(), [](const auto& r) { return r.law != nullptr; }))
+    return updateByLaw(rows);
+  spanOf(rows);
+  const Eigen::Index m = W_.cols();
+  Eigen::VectorXd nu(m), variance(m);
+  for (Eigen::Index k = 0; k < m; k += 2)
+  {
+    nu.segment<2>(k) = rows[static_cast<std::size_t>(k / 2)].innovation;
+    variance.segment<2>(k) = rows[static_cast<std::size_t>(k / 2)].variance;
   }
   Eigen::MatrixXd S = times(rows, W_);
   S.diagonal() += variance;
@@ -195,6 +208,15 @@ double Belief::update(const std::vector<SightingRows>& rows)
   addProduct(-1, ReadOnly::of(W_), ReadOnly::transposeOf(U), rest_->phi.data(),
              rest_->phi.outerStride(), false);
   return logDensity;
+}
+
+double Belief::updateByLaw(const std::vector<SightingRows>& rows)
+{
+  spanOf(rows);
+  const Eigen::MatrixXd C = times(rows, W_);
+  const LawUpdate all = updateOneByOne(rows, 0.5 * (C + C.transpose()));
+  take(W_, rest_ ? times(rows, rest_->phi) : Eigen::MatrixXd(), all.gain, all.reduction, 1);
+  return all.logDensity;
 }
 
 Eigen::MatrixXd Belief::product(const Rows& H) const
@@ -242,23 +264,29 @@ math::IntersectionCriterion Belief::criterion(const Rows& H, const Eigen::Matrix
 
 void Belief::fuse(const Rows& H, const Eigen::MatrixXd& W, const math::IntersectionUpdate& update)
 {
-  x_.noalias() += W * update.gain;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(update.reduction);
+  take(W, rest_ ? times(H, rest_->phi) : Eigen::MatrixXd(), update.gain, update.reduction,
+       update.scale);
+}
+
+void Belief::take(const Eigen::MatrixXd& W, const Eigen::MatrixXd& U, const Eigen::VectorXd& gain,
+                  const Eigen::MatrixXd& reduction, double scale)
+{
+  x_.noalias() += W * gain;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduction);
   const Eigen::MatrixXd turned = W * eigen.eigenvectors();
-  // Inverse covariance intersection can add where it reduces elsewhere.
+  // Inverse covariance intersection and glint can add where they reduce elsewhere.
   const Eigen::VectorXd& values = eigen.eigenvalues();
   if (values.minCoeff() < 0)
     P_.update(turned * values.cwiseMin(0).cwiseAbs().cwiseSqrt().asDiagonal(), 1);
   P_.update(turned * values.cwiseMax(0).cwiseSqrt().asDiagonal(), -1);
-  P_ *= update.scale;
+  P_ *= scale;
   if (!rest_) return;
-  const Eigen::MatrixXd U = times(H, rest_->phi);
-  rest_->theta.noalias() += U.transpose() * update.gain;
-  const Eigen::MatrixXd reduced = update.reduction * U;
+  rest_->theta.noalias() += U.transpose() * gain;
+  const Eigen::MatrixXd reduced = reduction * U;
   rest_->psi.noalias() += U.transpose() * reduced / rest_->scale;
   rest_->phi.noalias() -= W * reduced;
-  rest_->phi *= update.scale;
-  rest_->scale *= update.scale;
+  rest_->phi *= scale;
+  rest_->scale *= scale;
 }
 
 void Belief::reshape(int j, const Eigen::Ref<const Eigen::VectorXd>& shift,

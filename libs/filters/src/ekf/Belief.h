@@ -4,6 +4,7 @@
 
 #include <slamot/math/gaussian.h>
 #include <slamot/math/intersection.h>
+#include <slamot/models/NoiseLaw.h>
 
 #include <memory>
 #include <vector>
@@ -19,6 +20,9 @@ struct SightingRows
   Eigen::Matrix<double, 2, 3> byRobot = Eigen::Matrix<double, 2, 3>::Zero();
   Matrix2 byObject = Matrix2::Zero();
   Vector2 innovation = Vector2::Zero(), variance = Vector2::Zero();
+  const models::NoiseLaw* law = nullptr;  ///< of its errors, by this variance; null: normal
+  bool hasRange = true;                   ///< else the first row is inert
+  double factor = 1;  ///< of the variance, that stands for the law: see soften()
 };
 
 /// \throws core::Error that says that the numbers of a log made no sense.
@@ -71,7 +75,8 @@ class Belief
   /// The coordinates from j on become `mean`, their errors F times the old ones plus Q.
   void move(int j, const Eigen::Ref<const Eigen::VectorXd>& mean,
             const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Q);
-  /// Kalman update by all sightings at once.  Angles of x are the caller's to wrap.
+  /// Kalman update by all sightings at once, derivatives taken before it; those that may glint one
+  /// by one, see updateOneByOne().  Angles of x are the caller's to wrap.
   /// \return log density of the innovations.
   double update(const std::vector<SightingRows>& rows);
 
@@ -103,6 +108,12 @@ class Belief
   struct Rest;
   [[nodiscard]] int front() const { return target(targetSlots_); }
   void makeRoomForTargets();
+  void spanOf(const std::vector<SightingRows>& rows);
+  double updateByLaw(const std::vector<SightingRows>& rows);
+  /// x + W gain, scale (P - W reduction Wᵀ).
+  /// \param U H times the compressed form's phi, if it is that.
+  void take(const Eigen::MatrixXd& W, const Eigen::MatrixXd& U, const Eigen::VectorXd& gain,
+            const Eigen::MatrixXd& reduction, double scale);
   void gatherRest(const std::vector<int>& slots);
 
   int robots_, targetSize_, targetSlots_ = 0;

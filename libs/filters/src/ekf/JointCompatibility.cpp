@@ -32,7 +32,8 @@ class Search
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
       if (i == 0 || pairs[i].sighting != pairs[i - 1].sighting) begin_.push_back(i);
-      S_.diagonal().segment<2>(static_cast<Eigen::Index>(2 * i)) += pairs[i].rows.variance;
+      const SightingRows& rows = pairs[i].rows;
+      S_.diagonal().segment<2>(static_cast<Eigen::Index>(2 * i)) += rows.factor * rows.variance;
     }
     const std::size_t sightings = begin_.size();
     begin_.push_back(pairs.size());

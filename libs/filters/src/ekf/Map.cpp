@@ -52,7 +52,7 @@ double Map::slack(int robot, const core::Sighting& s) const
   const double own =
       ray.varRange + ray.range * ray.range * (ray.varBearing + P(robot + 2, robot + 2));
   const double most = 2 * (largestVar_ + P(robot, robot) + P(robot + 1, robot + 1) + own);
-  return std::sqrt(2 * settings_->gates.outer * most);
+  return std::sqrt(2 * settings_->gates.outer * settings_->reach * most);
 }
 
 // How far away all is that, without identities, a scan's sightings may be of, or that should have
@@ -164,7 +164,7 @@ std::vector<Map::Possible> Map::possible(int robot, const Eye& eye, const Ray& r
     // No covariance of a difference exceeds twice the sum of both.
     const double most = 2 * (spread(j) + spread(robot) + n * own);
     Innovation o;
-    if (dx * dx + dy * dy <= 2 * settings_->gates.outer * most &&
+    if (dx * dx + dy * dy <= 2 * settings_->gates.outer * ray.reach * most &&
         relate(*belief_, robot, j, eye, ray, o, n) && o.d2 <= settings_->gates.outer)
       out.push_back({s, o, n});
   }

@@ -25,7 +25,7 @@ Settings Settings::from(core::Params& p, const Preset& preset)
 {
   Settings s{};
   static_cast<TargetSettings&>(s) = TargetSettings::from(p);
-  static_cast<LandmarkNoise&>(s) = LandmarkNoise::from(p);
+  static_cast<LandmarkNoise&>(s) = LandmarkNoise::from(p, s.gates.outer);
   const std::string a = p.choice("association", {"known", "nn", "jcbb", "mht"}, preset.association);
   s.association = a == "known"  ? Association::kKnown
                   : a == "nn"   ? Association::kNearest

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "Belief.h"
-#include "sighting/Sighting.h"
+#include "sighting/soften.h"
 
 namespace slamot::filters::ekf
 {
@@ -29,7 +29,8 @@ inline bool relate(const Belief& belief, int robot, int object, const Eye& eye, 
   o.s12 += add(0, 1);
   o.s22 += add(1, 1);
   o.det = o.s11 * o.s22 - o.s12 * o.s12;
-  o.d2 = (o.s22 * o.nuR * o.nuR - 2 * o.s12 * o.nuR * o.nuB + o.s11 * o.nuB * o.nuB) / o.det;
+  o.d2 = o.form();
+  soften(z, noise, nullptr, o);
   return true;
 }
 
@@ -44,11 +45,14 @@ inline SightingRows rowsOf(int robot, int object, const Innovation& o, const Ray
   out.byObject << o.h11, o.h12, o.h21, o.h22;
   out.innovation << o.nuR, o.nuB;
   out.variance << (z.hasRange ? noise : 1) * z.varRange, noise * z.varBearing;
+  out.law = z.law;
+  out.hasRange = z.hasRange;
+  out.factor = o.factor;
   return out;
 }
 
-/// Whether a sighting is taken in the frame of its ray: in polar coordinates a turn of the robot moves
-/// the bearing alone, by as much.
+/// Whether a sighting is taken in the frame of its ray: in polar coordinates a turn of the robot
+/// moves the bearing alone, by as much.
 inline bool isClose(const SightingRows& row)
 {
   return row.byRobot(0, 2) != 0 || row.byRobot(1, 2) != -1;

@@ -139,7 +139,10 @@ double Intensity::logSingleFeature(const Eye& eye, const Scratch& s) const
   const double clutter = settings_.clutterDensity(scan_.slots().fov());
   for (std::size_t j = 0; j < s.evidence.size(); ++j)
     if (Innovation o; innovate(eye, scan_.slots().rays()[j], exact.x, exact.y, 0, 0, 0, o))
+    {
+      soften(scan_.slots().rays()[j], 1, nullptr, o);
       seen += best->detection * std::exp(logDensity(o, true)) / clutter;
+    }
   double before = 0, after = 0;
   for (const Component& c : s.components)
   {

@@ -4,6 +4,7 @@
 #include "PoseUpdate.h"
 #include "ScanSlots.h"
 #include "SightingTracks.h"
+#include "sighting/soften.h"
 #include "sighting/unscentedSighting.h"
 
 #include <slamot/math/random.h>
@@ -97,14 +98,18 @@ class LandmarkScan
   }
 
   /// Innovation of a sighting of a landmark.
-  /// \param poseCov of a pose that is not sampled yet, for an unscented proposal; else null.
+  /// \param poseCov of a pose that is not sampled yet; else null.
   bool innovateLandmark(const Eye& eye, std::size_t j, const maps::Landmark& m,
                         const Matrix3* poseCov, Innovation& o, double noise) const
   {
     const Ray& ray = slots_.rays()[j];
-    if (poseCov ? settings_.proposal == Proposal::kUnscented : settings_.unscentedMap)
-      return innovateUnscented(eye, ray, m.x, m.y, m.cxx, m.cxy, m.cyy, poseCov, o, noise);
-    return innovate(eye, ray, m.x, m.y, m.cxx, m.cxy, m.cyy, o, noise);
+    const bool unscented =
+        poseCov ? settings_.proposal == Proposal::kUnscented : settings_.unscentedMap;
+    if (!(unscented ? innovateUnscented(eye, ray, m.x, m.y, m.cxx, m.cxy, m.cyy, poseCov, o, noise)
+                    : innovate(eye, ray, m.x, m.y, m.cxx, m.cxy, m.cyy, o, noise)))
+      return false;
+    soften(ray, noise, poseCov, o);
+    return true;
   }
 
   /// The landmark that a sighting alone gives.

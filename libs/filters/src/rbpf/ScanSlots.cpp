@@ -139,12 +139,12 @@ void ScanSlots::findKnown(const core::LandmarkScan& scan)
 void ScanSlots::findCandidates(const std::vector<Pose2D>& priors, const Gaussian<Pose2D>& pending)
 {
   const Spread spread(priors);
-  const double sigmas = std::sqrt(settings_.gates.outer);
   const double poseStd = std::sqrt(pending.cov(0, 0) + pending.cov(1, 1));
   near_.resize(std::max(near_.size(), rays_.size()));
   for (std::size_t j = 0; j < rays_.size(); ++j)
   {
     const Ray& ray = rays_[j];
+    const double sigmas = std::sqrt(settings_.gates.outer * ray.reach);
     // The gate's reach: standard deviations of parts add up to more than that of the sum.
     const double reach = sigmas * (std::sqrt(ray.varRange) + poseStd);
     const double across =

@@ -113,11 +113,12 @@ Settings Settings::from(core::Params& p, const Preset& preset)
   s.sequential = p.choice("proposal_update", {"batch", "sequential"}, "batch") == "sequential";
   const bool intensity = p.choice("map", {"landmarks", "gm-phd"}, preset.map) == "gm-phd";
   s.marginalWeight = p.choice("weight", {"marginal", "sampled"}, preset.weight) == "marginal";
+  s.weightExponent = p.inRange("weight_exponent", 0, 1, 1.0);
   s.association = chosen<Association>(p, "association", {"known", "nn", "scnn", "jcbb", "jml"},
                                       preset.association);
   s.gateProbability = p.probability("gate_probability", 0.99);
   s.newDensity = p.nonNegative("new_density_per_m_rad", 0.0);
-  static_cast<LandmarkNoise&>(s) = LandmarkNoise::from(p);
+  static_cast<LandmarkNoise&>(s) = LandmarkNoise::from(p, s.gates.outer);
   if (s.association == Association::kNearest && !intensity)
     s.tracking = {p.nonNegative("follow_range_std_m", 0.0),
                   p.nonNegative("follow_bearing_std_deg", 0.0)};

@@ -77,6 +77,8 @@ struct Settings : TargetSettings, LandmarkNoise
   bool unscentedMap;    ///< map_update = unscented, not ekf
   bool sequential;      ///< the proposal takes in sightings one by one, each seen from the last
   bool marginalWeight;  ///< weight = marginal, not sampled
+  /// Of the last weight in the next: below 1, evidence is forgotten.  Zhu and Jin 2018.
+  double weightExponent;
   Association association;
   double gateProbability;
   double newDensity;  ///< p_new [1/(m rad)]; 0: that of a pair at the inner gate's edge

@@ -90,7 +90,8 @@ void EngineOf<Motion>::updateParticle(std::size_t i, int lane)
   const bool sampled = settings_.isInformed() && scan_.size() + blobRays_.rays.size() > 0;
   gain += sampled && settings_.marginalWeight ? placeByMarginal(i, root, scratch)
                                               : placeBySample(i, root, scratch, sampled, lane);
-  particles_.logWeight(i) += gain;
+  double& logWeight = particles_.logWeight(i);
+  logWeight = settings_.weightExponent * logWeight + gain;
 
   const Eye eye = sampled ? Eye(p.pose) : prior;
   if (!settings_.intensity)
@@ -172,7 +173,8 @@ double EngineOf<Motion>::weighTargets(std::size_t i, const Eye& eye, PoseUpdate*
     Innovation o;
     const auto t = static_cast<std::size_t>(blobs[k]);
     if (blobs[k] < 0 || !tracks_.list()[t].confirmed ||
-        !innovateTarget(eye, ray, p.targets[t], o, nullptr, targetNoise_[t]))
+        !innovateTarget(eye, ray, p.targets[t], o, nullptr, targetNoise_[t],
+                        update ? &outcomes_[i].cov : nullptr))
     {
       sum += blobs[k] == kNew || blobs[k] == kRejected ? logNew : 0.0;
       continue;

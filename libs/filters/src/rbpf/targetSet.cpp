@@ -45,7 +45,8 @@ double EngineOf<Motion>::shapeBySet(std::size_t i, const Eye& prior, PoseUpdate&
     const auto t = static_cast<std::size_t>(blobs[k]);
     const auto* c = mixture_.heaviest(particles_[i].mixture, labels_.key(t));
     Innovation o;
-    if (!innovateTarget(prior, blobRays_.rays[k], c->state, o, nullptr, mixture_.noise(t)))
+    if (!innovateTarget(prior, blobRays_.rays[k], c->state, o, nullptr, mixture_.noise(t),
+                        &outcomes_[i].cov))
       continue;
     sum += logDensity(o, blobRays_.rays[k].hasRange);
     update.add(o);
@@ -74,7 +75,7 @@ double EngineOf<Motion>::takeOverPairs(std::size_t i, const Eye& prior, Scratch&
   for (const auto& [taken, hasRange] : scratch.paired)
   {
     Innovation o = shifted(taken, d);
-    o.d2 = (o.s22 * o.nuR * o.nuR - 2 * o.s12 * o.nuR * o.nuB + o.s11 * o.nuB * o.nuB) / o.det;
+    o.d2 = o.form() + o.excess;
     pairs += logDensity(o, hasRange);
   }
   return takeIntoSet(i, Eye(at), scratch) - pairs;

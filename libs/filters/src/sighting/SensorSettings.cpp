@@ -1,5 +1,7 @@
 #include "SensorSettings.h"
 
+#include "soften.h"
+
 #include <slamot/math/statistics.h>
 
 #include <algorithm>
@@ -19,26 +21,33 @@ Gates Gates::from(core::Params& p)
 TargetSettings TargetSettings::from(core::Params& p)
 {
   return {Gates::from(p), TrackRules::from(p), p.nonNegative("target_range_std_m", 0.0),
-          p.nonNegative("target_bearing_std_deg", 0.0)};
+          p.nonNegative("target_bearing_std_deg", 0.0), models::NoiseLaw::from(p, "target_")};
 }
 
 Ray TargetSettings::ray(const core::Blob& b) const
 {
   const double bStd = targetBearingStd > 0 ? targetBearingStd : b.bearingStd;
-  if (!b.range) return Ray::ofBearing(b.bearing, bStd);
-  return Ray::of(*b.range, b.bearing, targetRangeStd > 0 ? targetRangeStd : b.rangeStd, bStd);
+  const double rStd = targetRangeStd > 0 ? targetRangeStd : b.rangeStd;
+  Ray out = b.range ? Ray::of(*b.range, b.bearing, rStd, bStd) : Ray::ofBearing(b.bearing, bStd);
+  out.law = targetLaw.get();
+  return out;
 }
 
-LandmarkNoise LandmarkNoise::from(core::Params& p)
+LandmarkNoise LandmarkNoise::from(core::Params& p, double gate)
 {
-  return {p.nonNegative("range_std_m", 0.0), p.nonNegative("bearing_std_deg", 0.0),
-          p.nonNegative("sighting_correlation_s", 0.0)};
+  LandmarkNoise out{p.nonNegative("range_std_m", 0.0), p.nonNegative("bearing_std_deg", 0.0),
+                    p.nonNegative("sighting_correlation_s", 0.0), models::NoiseLaw::from(p, "")};
+  if (out.law) out.reach = reachOf(*out.law, gate);
+  return out;
 }
 
 Ray LandmarkNoise::ray(const core::Sighting& s) const
 {
-  return Ray::of(s.range, s.bearing, rangeStd > 0 ? rangeStd : s.rangeStd,
-                 bearingStd > 0 ? bearingStd : s.bearingStd);
+  Ray out = Ray::of(s.range, s.bearing, rangeStd > 0 ? rangeStd : s.rangeStd,
+                    bearingStd > 0 ? bearingStd : s.bearingStd);
+  out.law = law.get();
+  out.reach = reach;
+  return out;
 }
 
 double LandmarkNoise::noiseAfter(double pause) const

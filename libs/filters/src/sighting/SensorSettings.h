@@ -9,8 +9,9 @@ struct TargetSettings
 {
   Gates gates;
   TrackRules tracks;
-  double targetRangeStd;    ///< [m]; 0: what the log says
-  double targetBearingStd;  ///< [rad]; 0: what the log says
+  double targetRangeStd;                              ///< [m]; 0: what the log says
+  double targetBearingStd;                            ///< [rad]; 0: what the log says
+  std::shared_ptr<const models::NoiseLaw> targetLaw;  ///< of blobs' errors; null: normal
 
   static TargetSettings from(core::Params& p);
   [[nodiscard]] Ray ray(const core::Blob& b) const;
@@ -22,8 +23,11 @@ struct LandmarkNoise
   double rangeStd;         ///< [m]; 0: what the log says
   double bearingStd;       ///< [rad]; 0: what the log says
   double correlationTime;  ///< [s] over which sightings of one thing share their error; 0: none do
+  std::shared_ptr<const models::NoiseLaw> law;  ///< of sightings' errors; null: normal
+  double reach = 1;                             ///< Ray::reach by the law
 
-  static LandmarkNoise from(core::Params& p);
+  /// \param gate the squared distance within which a sighting may be of a thing.
+  static LandmarkNoise from(core::Params& p, double gate);
   [[nodiscard]] Ray ray(const core::Sighting& s) const;
   /// What multiplies the variances of a thing's sighting this long [s] after its last one:
   /// sightings that share their error within a time tell no more, all together, than one would.

@@ -2,6 +2,7 @@
 
 #include <slamot/core/Step.h>
 #include <slamot/maps/LandmarkMap.h>
+#include <slamot/models/NoiseLaw.h>
 #include <slamot/models/RangeBearing.h>
 
 #include <cmath>
@@ -17,6 +18,8 @@ struct Ray
   double range = 0, cosB = 1, sinB = 0, bearing = 0;
   double varRange = 1, varBearing = 1;
   bool hasRange = true;
+  const models::NoiseLaw* law = nullptr;  ///< of its errors, by these variances; null: normal
+  double reach = 1;  ///< by how much farther off than a normal one, squared, it may be of a thing
 
   static Ray of(double range, double bearing, double rangeStd, double bearingStd)
   {
@@ -47,7 +50,17 @@ struct Innovation
   double s11, s12, s22, det;
   double h11, h12, h21, h22;
   double turnR, turnB;
-  double d2;  ///< nuᵀ S⁻¹ nu
+  double d2;  ///< nuᵀ S⁻¹ nu + excess
+  // Of a sighting that may glint, see soften():
+  double excess = 0;
+  double factor = 1;                 ///< that stands for the law: of the sighting's variances
+  double e11 = 0, e12 = 0, e22 = 0;  ///< covariance of S⁻¹ nu over the law's Gaussians
+
+  /// nuᵀ S⁻¹ nu.
+  [[nodiscard]] double form() const
+  {
+    return (s22 * nuR * nuR - 2 * s12 * nuR * nuB + s11 * nuB * nuB) / det;
+  }
 };
 
 /// atan2 for a point near the positive x axis, where a sighting's own point lies.
@@ -78,7 +91,7 @@ inline bool isBeyond(double gate, const Eye& eye, const Ray& z, double mx, doubl
     place += (*poseCov)(0, 0) + (*poseCov)(1, 1);
     turn += (*poseCov)(2, 2);
   }
-  return ex * ex + ey * ey > 2 * gate * (z.varRange + 2 * place + (q + r2) * turn);
+  return ex * ex + ey * ey > 2 * gate * z.reach * (z.varRange + 2 * place + (q + r2) * turn);
 }
 
 // Within eight deviations (squared here) of the point and the range, polar coordinates bend too
@@ -132,7 +145,9 @@ inline bool innovate(const Eye& eye, const Ray& z, double mx, double my, double 
   o.s12 = o.h21 * a1 + o.h22 * a2;
   o.s22 = o.h21 * b1 + o.h22 * b2 + noise * z.varBearing;
   o.det = o.s11 * o.s22 - o.s12 * o.s12;
-  o.d2 = (o.s22 * o.nuR * o.nuR - 2 * o.s12 * o.nuR * o.nuB + o.s11 * o.nuB * o.nuB) / o.det;
+  o.d2 = o.form();
+  o.excess = o.e11 = o.e12 = o.e22 = 0;
+  o.factor = 1;
   return true;
 }
 
@@ -156,8 +171,7 @@ inline Innovation withPose(const Innovation& o, const Matrix3& poseCov)
   out.s12 += add(0, 1);
   out.s22 += add(1, 1);
   out.det = out.s11 * out.s22 - out.s12 * out.s12;
-  out.d2 =
-      (out.s22 * o.nuR * o.nuR - 2 * out.s12 * o.nuR * o.nuB + out.s11 * o.nuB * o.nuB) / out.det;
+  out.d2 = out.form() + out.excess;
   return out;
 }
 
@@ -175,6 +189,14 @@ inline void correct(maps::Landmark& m, const Innovation& o)
   m.cxx -= k11 * a1 + k12 * b1;
   m.cxy -= k11 * a2 + k12 * b2;
   m.cyy -= k21 * a2 + k22 * b2;
+  if (o.e11 + o.e22 > 0)  // that the law's Gaussians disagree is doubt too
+  {
+    const double c1 = a1 * o.e11 + b1 * o.e12, d1 = a1 * o.e12 + b1 * o.e22;
+    const double c2 = a2 * o.e11 + b2 * o.e12, d2 = a2 * o.e12 + b2 * o.e22;
+    m.cxx += c1 * a1 + d1 * b1;
+    m.cxy += c1 * a2 + d1 * b2;
+    m.cyy += c2 * a2 + d2 * b2;
+  }
   ++m.sightings;
 }
 

@@ -4,6 +4,7 @@
 #include "Moments.h"
 #include "Sighting.h"
 #include "Tracks.h"
+#include "soften.h"
 
 #include <slamot/core/Estimate.h>
 #include <slamot/models/TargetMotion.h>
@@ -30,11 +31,14 @@ struct BlobRays
 
 /// Innovation of a blob of a target; the pose's own covariance, if given, adds to S; `noise`
 /// multiplies the sighting's variances.
+/// \param doubt the pose's covariance where it does not add to S, for whether the blob glints.
 template <class State>
 bool innovateTarget(const Eye& eye, const Ray& ray, const State& t, Innovation& o,
-                    const Matrix3* poseCov = nullptr, double noise = 1)
+                    const Matrix3* poseCov = nullptr, double noise = 1,
+                    const Matrix3* doubt = nullptr)
 {
   if (!innovate(eye, ray, t.x[0], t.x[1], t.P(0, 0), t.P(0, 1), t.P(1, 1), o, noise)) return false;
+  soften(ray, noise, poseCov ? poseCov : doubt, o);
   if (poseCov) o = withPose(o, *poseCov);
   return true;
 }
@@ -106,7 +110,9 @@ void correctTarget(const Motion& motion, typename Motion::State& t, const Eye& e
   S << o.s11, o.s12, o.s12, o.s22;
   H << o.h11, o.h12, o.h21, o.h22;
   const Vector2 nu(o.nuR, o.nuB);
-  t.template correct<2>(nu, S, H);
+  Matrix2 E;
+  E << o.e11, o.e12, o.e12, o.e22;
+  t.template correct<2>(nu, S, H, E);
   const Gaussian<Point2D> seenAt = invert(eye, ray);
   motion.afterCorrection(t, ray.hasRange ? &seenAt : nullptr);
 }

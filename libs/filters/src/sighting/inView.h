@@ -12,8 +12,8 @@ inline double normalBelow(double t)
   return 0.5 * std::erfc(-t * 0.70710678118654752);
 }
 
-/// The chance that something is in a field of view whose range [m] and bearing [rad] from there have
-/// these deviations.
+/// The chance that something is in a field of view whose range [m] and bearing [rad] from there
+/// have these deviations.
 inline double partInView(const core::FieldOfView& fov, double range, double bearing,
                          double rangeStd, double bearingStd)
 {

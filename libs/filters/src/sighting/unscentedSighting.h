@@ -18,7 +18,7 @@ struct UnscentedPolar
 {
   double meanR, meanB;
   double rAlong, bAlong, bAcross;  ///< slopes of the regression on d; the range has none across
-  double varR, varB, covRB;                 ///< what the regression leaves over
+  double varR, varB, covRB;        ///< what the regression leaves over
 
   UnscentedPolar(double r0, double along, double both, double across)
   {
@@ -81,7 +81,9 @@ inline bool innovateUnscented(const Eye& eye, const Ray& z, double mx, double my
   o.s12 = o.h21 * a1 + o.h22 * a2 + t.covRB;
   o.s22 = o.h21 * b1 + o.h22 * b2 + t.varB + noise * z.varBearing;
   o.det = o.s11 * o.s22 - o.s12 * o.s12;
-  o.d2 = (o.s22 * o.nuR * o.nuR - 2 * o.s12 * o.nuR * o.nuB + o.s11 * o.nuB * o.nuB) / o.det;
+  o.d2 = o.form();
+  o.excess = o.e11 = o.e12 = o.e22 = 0;
+  o.factor = 1;
   return true;
 }
 

@@ -19,14 +19,18 @@ struct TargetState
   [[nodiscard]] Matrix2 pointCov() const { return P.template topLeftCorner<2, 2>(); }
 
   /// Kalman update by an innovation nu with covariance S, H its derivative by the place (Mx2).
+  /// \param doubt what is added to -S⁻¹ in the update of P: where S stands for several Gaussians,
+  /// what they disagree about.
   template <int M>
   void correct(const Eigen::Matrix<double, M, 1>& nu, const Eigen::Matrix<double, M, M>& S,
-               const Eigen::Matrix<double, M, 2>& H)
+               const Eigen::Matrix<double, M, 2>& H,
+               const Eigen::Matrix<double, M, M>& doubt = Eigen::Matrix<double, M, M>::Zero())
   {
     const Eigen::Matrix<double, N, M> PHt = P.template leftCols<2>() * H.transpose();
     const Eigen::Matrix<double, N, M> K = PHt * S.inverse();
     x += K * nu;
     P -= K * PHt.transpose();
+    if (!doubt.isZero(0)) P += PHt * doubt * PHt.transpose();
     P = (0.5 * (P + P.transpose())).eval();
   }
 };
