@@ -40,4 +40,7 @@ void addTeam(CLI::App& app, int& status);
 void addRobot(CLI::App& app, int& status);
 void addDetect(CLI::App& app, int& status);
 void addCalibrateColor(CLI::App& app, int& status);
+// Hidden: for shells, and for who packs.
+void addComplete(CLI::App& app, int& status);
+void addManPages(CLI::App& app, int& status);
 }  // namespace slamot::apps

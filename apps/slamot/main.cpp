@@ -83,6 +83,8 @@ int runCommand(int argc, char** argv)
   slamot::apps::addImport(app, status);
   slamot::apps::addDetect(app, status);
   slamot::apps::addCalibrateColor(app, status);
+  slamot::apps::addComplete(app, status);
+  slamot::apps::addManPages(app, status);
   try
   {
     app.parse(argc, argv);
