@@ -46,11 +46,18 @@ function(slamot_library name)
   elseif(NOT ARG_SHARED)
     slamot_use_precompiled(${target} slamot_precompiled_library)
   endif()
+  # As long as the first number is 0, the second one changes the interface.
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR})
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  set(link development)
+  if(ARG_SHARED)  # its name without a number is what MRPT's tools load
+    set(link plugin)
+  endif()
   install(TARGETS ${target} EXPORT slamot-targets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT ${link}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+    FILES_MATCHING PATTERN *.h)
 endfunction()
 
 # slamot_module(NAME SOURCES a.cpp ... [DEPENDS targets ...]): what the program loads only when it is asked
@@ -64,7 +71,7 @@ function(slamot_module name)
   target_compile_options(${target} PRIVATE ${seldom})
   set_target_properties(${target} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${slamot_modules}
     INSTALL_RPATH "$ORIGIN/..")
-  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/slamot)
+  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/slamot COMPONENT program)
 endfunction()
 set(slamot_modules ${PROJECT_BINARY_DIR}/modules)
 
