@@ -175,4 +175,40 @@ TEST_F(Execute, RawlogsAreCellsOfTheirOwn)
   EXPECT_NE(table.find("experiment1,odometry,robot_mean_m,1,"), std::string::npos) << table;
   EXPECT_NE(table.find("post-field,odometry,robot_mean_m,1,"), std::string::npos);
 }
+
+TEST_F(Execute, SeveralStudiesAtOnceMakeWhatEachWouldMake)
+{
+  const Plan plan = study.plan(), other = study.plan({"study.seeds=2", "study.first_seed=9"});
+  run(plan, "plan");
+  run(other, "other");
+  ExecuteOptions options;
+  options.threads = 3;
+  std::size_t last = 0, all = 0;
+  options.onProgress = [&](std::size_t done, std::size_t of, std::size_t)
+  { last = done, all = of; };
+  const auto results =
+      execute({{&plan, study.out("both/plan")}, {&other, study.out("both/other")}}, options);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].made, 16u);
+  EXPECT_EQ(results[1].made, 8u);
+  EXPECT_EQ(last, 24u);
+  EXPECT_EQ(all, 24u);
+  EXPECT_EQ(texts(plan, {study.out("both/plan")}), texts(plan, {study.out("plan")}));
+  EXPECT_EQ(texts(other, {study.out("both/other")}), texts(other, {study.out("other")}));
+}
+
+TEST_F(Execute, SeveralStudiesGoForwardTogether)
+{
+  const Plan plan = study.plan(), other = study.plan({"study.seeds=2", "study.first_seed=9"});
+  std::atomic<bool> stop{false};
+  ExecuteOptions options;
+  options.stop = &stop;
+  options.onProgress = [&](std::size_t done, std::size_t of, std::size_t)
+  { stop = 2 * done == of; };
+  const auto results = execute({{&plan, study.out("a")}, {&other, study.out("b")}}, options);
+  EXPECT_TRUE(results[0].interrupted);
+  EXPECT_TRUE(results[1].interrupted);
+  EXPECT_EQ(results[0].made, 8u);
+  EXPECT_EQ(results[1].made, 4u);
+}
 }  // namespace slamot::study::test

@@ -151,4 +151,34 @@ TEST(Tables, PlotIsACurveForEachMethodOverTheAxis)
   EXPECT_NE(study.folder().read("out/errors.svg").find("<svg"), std::string::npos);
   EXPECT_EQ(study.folder().read("out/table.md"), tableMarkdown(plan, outcome));
 }
+
+TEST(Tables, PublishedFiguresStandUnderTheRowThatTheyAreOf)
+{
+  filters::registerAll();
+  std::string text = TinyStudy::kStudy;
+  text +=
+      "[published.placed]\nlabel = Placed\nmethod = odometry\nlandmarks = 8\nrobot_mean_m = "
+      "0.5\n[published.elsewhere]\nmethod = odometry\nlandmarks = 9\nrobot_mean_m = 0.6\n";
+  const TinyStudy study(text);
+  const Plan plan = study.plan({"study.seeds=1"});
+  const Outcome outcome = collect(plan, {});
+  const TableText table = tableText(plan, outcome, plan.spec.tables[0]);
+  ASSERT_EQ(table.rows.size(), 6u);  // four of ours; the cell with 9 landmarks is not there
+  EXPECT_FALSE(table.rows[3].isPublished);
+  EXPECT_EQ(table.rows[3].fields, (std::vector<std::string>{"8", "Odometry", "-", "-"}));
+  EXPECT_TRUE(table.rows[4].isPublished);
+  EXPECT_EQ(table.rows[4].fields, (std::vector<std::string>{"8", "Placed", "0.5", ""}));
+  EXPECT_EQ(table.rows[5].fields, (std::vector<std::string>{"", "Print", "0.01 (0.002)", ""}));
+  EXPECT_EQ(tableText(plan, outcome, plan.spec.tables[1]).rows.size(), 2u);  // ratios: none
+}
+
+TEST(Tables, OnlyTheMethodsThatATableNamesAreInIt)
+{
+  filters::registerAll();
+  const TinyStudy study;
+  const Plan plan = study.plan({"study.seeds=1", "table.errors.methods=odometry"});
+  const TableText table = tableText(plan, collect(plan, {}), plan.spec.tables[0]);
+  ASSERT_EQ(table.rows.size(), 3u);
+  for (std::size_t i : {0u, 1u}) EXPECT_EQ(table.rows[i].fields[1], "Odometry");
+}
 }  // namespace slamot::study::test

@@ -53,15 +53,7 @@ std::vector<std::optional<double>> measure(const eval::Record& record,
 std::vector<std::optional<double>> meanOf(
     const std::vector<std::vector<std::optional<double>>>& robots)
 {
-  std::vector<std::optional<double>> out(entries().size());
-  for (std::size_t m = 0; m < out.size(); ++m)
-  {
-    double sum = 0;
-    int count = 0;
-    for (const auto& robot : robots)
-      if (robot[m]) sum += *robot[m], ++count;
-    if (count > 0) out[m] = sum / count;
-  }
-  return out;
+  if (robots.empty()) return std::vector<std::optional<double>>(entries().size());
+  return presentMeans(robots);
 }
 }  // namespace slamot::study

@@ -13,6 +13,39 @@ namespace slamot::study
 namespace
 {
 using Json = nlohmann::ordered_json;
+using Value = std::optional<double>;
+
+Json toJson(const Value& value)
+{
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Value valueOf(const Json& json)
+{
+  return json.is_null() ? std::nullopt : Value(json.get<double>());
+}
+
+Json toJson(const ErrorCurves& curves)
+{
+  Json out;
+  out["duration_s"] = curves.durationS;
+  for (const ErrorCurves::Curve& c : curves.curves)
+    for (const Value& v : c.values) out[c.name].push_back(toJson(v));
+  return out;
+}
+
+ErrorCurves curvesOf(const Json& json)
+{
+  ErrorCurves out;
+  out.durationS = json.at("duration_s").get<double>();
+  for (const auto& [name, values] : json.items())
+  {
+    if (!values.is_array()) continue;
+    out.curves.push_back({name, {}});
+    for (const Json& value : values) out.curves.back().values.push_back(valueOf(value));
+  }
+  return out;
+}
 
 Json toJson(const Plan& plan, const Run& run, const RunRecord& record)
 {
@@ -28,8 +61,8 @@ Json toJson(const Plan& plan, const Run& run, const RunRecord& record)
   out["wall_s"] = record.wallS;
   out["cpu_s"] = record.cpuS;
   for (std::size_t i = 0; i < record.metrics.size(); ++i)
-    out["metrics"][metrics()[i].name] =
-        record.metrics[i] ? Json(*record.metrics[i]) : Json(nullptr);
+    out["metrics"][metrics()[i].name] = toJson(record.metrics[i]);
+  if (record.error.empty() && plan.spec.timeBins > 0) out["curves"] = toJson(record.curves);
   return out;
 }
 
@@ -44,12 +77,8 @@ RunRecord fromJson(const Json& json)
   out.wallS = json.at("wall_s").get<double>();
   out.cpuS = json.at("cpu_s").get<double>();
   if (!out.error.empty()) return out;
-  for (const Metric& m : metrics())
-  {
-    const Json& value = json.at("metrics").at(m.name);
-    out.metrics.push_back(value.is_null() ? std::nullopt
-                                          : std::optional<double>(value.get<double>()));
-  }
+  for (const Metric& m : metrics()) out.metrics.push_back(valueOf(json.at("metrics").at(m.name)));
+  if (json.contains("curves")) out.curves = curvesOf(json["curves"]);
   return out;
 }
 }  // namespace

@@ -12,28 +12,13 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr int kMostSeeds = 1'000'000;
+constexpr int kMostTimeBins = 1000;
 
 std::string trimmed(const std::string& text)
 {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// Sets `Section.key=value` where the key may itself be a Section.key of a file: it belongs to the
-/// longest section that the study has.
-void assign(core::Config& study, const std::string& assignment)
-{
-  std::string section;
-  auto sections = study.sections();
-  sections.emplace_back("scenario");
-  for (const std::string& s : sections)
-    if (assignment.rfind(s + ".", 0) == 0 && s.size() > section.size()) section = s;
-  const auto equals = assignment.find('=');
-  if (section.empty() || equals == std::string::npos || equals <= section.size() + 1)
-    return study.set(assignment);
-  study.set(section, trimmed(assignment.substr(section.size() + 1, equals - section.size() - 1)),
-            trimmed(assignment.substr(equals + 1)));
 }
 
 /// Sections that lists of [study] choose from: what they leave out is not looked at.
@@ -121,6 +106,21 @@ std::string effectiveText(core::Config& study, const StudySpec& spec)
 }
 }  // namespace
 
+void assign(core::Config& config, const std::string& assignment,
+            const std::vector<std::string>& more)
+{
+  std::string section;
+  auto sections = config.sections();
+  sections.insert(sections.end(), more.begin(), more.end());
+  for (const std::string& s : sections)
+    if (assignment.rfind(s + ".", 0) == 0 && s.size() > section.size()) section = s;
+  const auto equals = assignment.find('=');
+  if (section.empty() || equals == std::string::npos || equals <= section.size() + 1)
+    return config.set(assignment);
+  config.set(section, trimmed(assignment.substr(section.size() + 1, equals - section.size() - 1)),
+             trimmed(assignment.substr(equals + 1)));
+}
+
 core::Config ConfigFile::config() const
 {
   core::Config out = core::Config::parse(text, name);
@@ -136,7 +136,7 @@ StudySpec StudySpec::load(const std::string& path, const std::vector<std::string
 {
   core::Config study = core::Config::load(path);
   const auto unused = choosable(study);
-  for (const std::string& assignment : set) assign(study, assignment);
+  for (const std::string& assignment : set) assign(study, assignment, {"scenario"});
   const fs::path folder = fs::path(path).parent_path();
   core::Params p(study, "study");
   StudySpec spec;
@@ -153,8 +153,9 @@ StudySpec StudySpec::load(const std::string& path, const std::vector<std::string
   spec.landmarkCutoff = p.positive("landmark_cutoff_m", spec.landmarkCutoff);
   spec.gospaCutoff = p.positive("gospa_cutoff_m", spec.gospaCutoff);
   spec.bound = p.flag("bound", true);
+  spec.timeBins = p.integer("time_bins", 0, kMostTimeBins, 0);
   spec.tables = readTables(study, p, spec);
-  spec.plots = readPlots(study, spec.axes);
+  spec.plots = readPlots(study, spec);
   spec.published = readPublished(study);
   study.requireAllRead(unused);
   spec.effective = effectiveText(study, spec);

@@ -140,7 +140,8 @@ bool isBoundComparable(const core::Config& config, const Trial& trial)
 std::string judging(const StudySpec& spec)
 {
   return "align = " + spec.align + "\ncutoffs = " + shortest(spec.landmarkCutoff) + ", " +
-         shortest(spec.gospaCutoff) + "\nbound = " + (spec.bound ? "true" : "false");
+         shortest(spec.gospaCutoff) + "\nbound = " + (spec.bound ? "true" : "false") +
+         (spec.timeBins > 0 ? "\ntime_bins = " + std::to_string(spec.timeBins) : "");
 }
 
 eval::Align alignOf(const std::string& name, const core::Starts& starts)
@@ -221,6 +222,7 @@ Trial openTrial(const StudySpec& spec, const Cell& cell, const Method& method, s
   if (!isBoundComparable(config, trial)) trial.bound = nullptr;
   trial.evaluation.landmarkCutoff = spec.landmarkCutoff;
   trial.evaluation.gospaCutoff = spec.gospaCutoff;
+  trial.timeBins = spec.timeBins;
   trial.effective += config.effectiveText() + judging(spec);
   return trial;
 }

@@ -62,7 +62,9 @@ void measureRun(const Plan& plan, const Run& run, BoundCache& bounds, RunRecord&
   // The bound is not the method's: it is in no method's time.
   const auto bound = bounds.of(trial);
   const Stopwatch watch(record);
-  record.metrics = runTrial(trial, bound);
+  TrialResult result = runTrial(trial, bound);
+  record.metrics = std::move(result.metrics);
+  record.curves = std::move(result.curves);
   for (std::size_t i = 0; i < record.metrics.size(); ++i)
     if (record.metrics[i] && !std::isfinite(*record.metrics[i]))
       throw core::Error(core::ExitStatus::kInternal, metrics()[i].name, "is not finite");
@@ -99,27 +101,45 @@ RunRecord executeRun(const Plan& plan, const Run& run, BoundCache& bounds)
   return record;
 }
 
-/// The runs of a shard that are still to be done, seed by seed: what is there after an interruption
-/// then compares methods on equal seeds.
-std::vector<Run> missingRuns(const Plan& plan, const std::string& folder,
-                             const ExecuteOptions& options, ExecuteResult& result)
+/// One run of one of the jobs.
+struct Task
 {
-  std::vector<Run> out;
+  std::size_t job = 0;
+  Run run;
+  double share = 0;  ///< of the job's seeds, those before this one
+};
+
+/// The runs of a job's shard that are still to be done.
+void addMissing(const std::vector<Job>& jobs, std::size_t job, const ExecuteOptions& options,
+                ExecuteResult& result, std::vector<Task>& out)
+{
+  const Plan& plan = *jobs[job].plan;
   const auto shards = static_cast<std::size_t>(options.shards);
   for (std::size_t i = static_cast<std::size_t>(options.shard) % shards; i < plan.runs.size();
        i += shards)
   {
     ++result.runs;
     RunRecord record;
-    const RecordState state = loadRecord(folder, plan, plan.runs[i], record);
+    const RecordState state = loadRecord(jobs[job].folder, plan, plan.runs[i], record);
     if (state == RecordState::kStale || state == RecordState::kDamaged) ++result.stale;
     if (state == RecordState::kGood && record.error.empty())
       ++result.found;
     else
-      out.push_back(plan.runs[i]);
+      out.push_back({job, plan.runs[i],
+                     static_cast<double>(plan.runs[i].seed - plan.spec.firstSeed) /
+                         static_cast<double>(plan.spec.seeds)});
   }
+}
+
+/// All that is still to be done, seed by seed: what is there after an interruption then compares
+/// methods on equal seeds.
+std::vector<Task> missingTasks(const std::vector<Job>& jobs, const ExecuteOptions& options,
+                               std::vector<ExecuteResult>& results)
+{
+  std::vector<Task> out;
+  for (std::size_t j = 0; j < jobs.size(); ++j) addMissing(jobs, j, options, results[j], out);
   std::stable_sort(out.begin(), out.end(),
-                   [](const Run& a, const Run& b) { return a.seed < b.seed; });
+                   [](const Task& a, const Task& b) { return a.share < b.share; });
   return out;
 }
 
@@ -127,24 +147,21 @@ std::vector<Run> missingRuns(const Plan& plan, const std::string& folder,
 class Crew
 {
  public:
-  Crew(const Plan& plan, const std::string& folder, const ExecuteOptions& options,
-       std::vector<Run> runs)
-      : plan_(plan), folder_(folder), options_(options), runs_(std::move(runs))
+  Crew(const std::vector<Job>& jobs, const ExecuteOptions& options, std::vector<Task> tasks,
+       std::vector<ExecuteResult>& results)
+      : jobs_(jobs), options_(options), tasks_(std::move(tasks)), results_(results)
   {
   }
 
-  void work(ExecuteResult& result)
+  void work()
   {
     std::vector<std::thread> threads;
     const auto count =
-        std::min<std::size_t>(static_cast<std::size_t>(options_.threads), runs_.size());
+        std::min<std::size_t>(static_cast<std::size_t>(options_.threads), tasks_.size());
     for (std::size_t i = 1; i < count; ++i) threads.emplace_back([this] { takeRuns(); });
     takeRuns();
     for (std::thread& thread : threads) thread.join();
     if (broken_) std::rethrow_exception(broken_);
-    result.made = done_;
-    result.failed = failed_;
-    result.firstFailed = firstFailed_;
   }
 
  private:
@@ -153,35 +170,46 @@ class Crew
     while (!(options_.stop && options_.stop->load()))
     {
       const std::size_t i = next_++;
-      if (i >= runs_.size()) return;
+      if (i >= tasks_.size()) return;
       try
       {
-        const RunRecord record = executeRun(plan_, runs_[i], bounds_);
-        saveRecord(folder_, plan_, runs_[i], record);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        ++done_;
-        if (!record.error.empty() && failed_++ == 0) firstFailed_ = record;
-        if (options_.onProgress) options_.onProgress(done_, runs_.size(), failed_);
+        const Task& task = tasks_[i];
+        const Job& job = jobs_[task.job];
+        const RunRecord record = executeRun(*job.plan, task.run, bounds_);
+        saveRecord(job.folder, *job.plan, task.run, record);
+        note(results_[task.job], record);
       }
       catch (...)
       {
         const std::lock_guard<std::mutex> lock(mutex_);
         broken_ = std::current_exception();
-        next_ = runs_.size();
+        next_ = tasks_.size();
         return;
       }
     }
   }
 
-  const Plan& plan_;
-  const std::string& folder_;
+  void note(ExecuteResult& result, const RunRecord& record)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++done_;
+    ++result.made;
+    if (!record.error.empty())
+    {
+      ++failed_;
+      if (result.failed++ == 0) result.firstFailed = record;
+    }
+    if (options_.onProgress) options_.onProgress(done_, tasks_.size(), failed_);
+  }
+
+  const std::vector<Job>& jobs_;
   const ExecuteOptions& options_;
-  std::vector<Run> runs_;
+  std::vector<Task> tasks_;
+  std::vector<ExecuteResult>& results_;
   BoundCache bounds_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::size_t done_ = 0, failed_ = 0;
-  std::optional<RunRecord> firstFailed_;
   std::exception_ptr broken_;
 };
 }  // namespace
@@ -194,11 +222,15 @@ RunRecord executeRun(const Plan& plan, const Run& run)
 
 ExecuteResult execute(const Plan& plan, const std::string& folder, const ExecuteOptions& options)
 {
-  ExecuteResult result;
-  const auto runs = missingRuns(plan, folder, options, result);
-  const std::size_t missing = runs.size();
-  Crew(plan, folder, options, runs).work(result);
-  result.interrupted = result.made < missing;
-  return result;
+  return execute(std::vector<Job>{{&plan, folder}}, options).front();
+}
+
+std::vector<ExecuteResult> execute(const std::vector<Job>& jobs, const ExecuteOptions& options)
+{
+  std::vector<ExecuteResult> results(jobs.size());
+  const auto tasks = missingTasks(jobs, options, results);
+  Crew(jobs, options, tasks, results).work();
+  for (ExecuteResult& r : results) r.interrupted = r.found + r.made < r.runs;
+  return results;
 }
 }  // namespace slamot::study

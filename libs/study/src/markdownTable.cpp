@@ -77,23 +77,33 @@ std::string ratioOf(const Plan& plan, const Outcome& outcome, std::size_t group,
   return r ? fixed(r->mean, kRatioDecimals) + " ± " + fixed(r->halfWidth95, kRatioDecimals) : "-";
 }
 
-std::string publishedRows(const Plan& plan, const TableSpec& table)
+/// Whether what others published is of this cell.
+bool isOf(const Published& p, const Plan& plan, const Cell& cell)
 {
-  std::string out;
-  for (const Published& p : plan.spec.published)
+  const auto& axes = plan.spec.axes;
+  for (std::size_t a = 0; a < axes.size(); ++a)
   {
-    std::vector<std::string> row(plan.cellLabels().size(), "");
-    row.push_back("*" + p.label + "*");
-    bool any = false;
-    for (const std::string& name : table.metrics)
-    {
-      const auto it = p.byMetric.find(name);
-      any = any || it != p.byMetric.end();
-      row.push_back(it == p.byMetric.end() ? "" : "*" + it->second + "*");
-    }
-    if (any) out += markdownLine(row);
+    const auto it = p.byAxis.find(axes[a].name);
+    if (it != p.byAxis.end() && it->second != axes[a].values[cell.values[a]]) return false;
   }
-  return out;
+  return true;
+}
+
+/// The row of what others published, if it has any of these metrics.
+/// \param cell empty: it is of none
+void addPublished(const Published& p, const std::vector<std::string>& metricNames,
+                  std::vector<std::string> cell, TableText& table)
+{
+  TableText::Row row{std::move(cell), true};
+  row.fields.push_back(p.label);
+  bool any = false;
+  for (const std::string& name : metricNames)
+  {
+    const auto it = p.byMetric.find(name);
+    any = any || it != p.byMetric.end();
+    row.fields.push_back(it == p.byMetric.end() ? "" : it->second);
+  }
+  if (any) table.rows.push_back(row);
 }
 
 bool isOfMeanSquares(const std::string& name)
@@ -101,34 +111,93 @@ bool isOfMeanSquares(const std::string& name)
   return metrics()[*metricByName(name)].numerator != nullptr;
 }
 
-std::string tableOf(const Plan& plan, const Outcome& outcome, const TableSpec& table)
+std::string noteOf(const Plan& plan, const TableSpec& table, std::optional<std::size_t> reference)
 {
-  const StudySpec& spec = plan.spec;
-  const auto reference = placeOf(spec.methods, table.reference);
-  std::string out = table.title.empty() ? "\n" : "\n## " + table.title + "\n\n";
-  out += reference ? "Ratio of the mean to that of " + spec.methods[*reference].label +
-                            ", paired by seed, ± half width of its 95% interval.\n\n"
-                      : "Mean over the runs ± half width of its 95% interval (standard deviation "
-                        "over the runs).\n\n";
+  std::string out =
+      reference ? "Ratio of the mean to that of " + plan.spec.methods[*reference].label +
+                      ", paired by seed, ± half width of its 95% interval."
+                : "Mean over the runs ± half width of its 95% interval (standard deviation over "
+                  "the runs).";
   if (std::any_of(table.metrics.begin(), table.metrics.end(), isOfMeanSquares))
     out +=
-        "Errors by a bound, or by the efficient filter, are roots of ratios of mean squares, which "
-        "is what a bound is of.\n\n";
-  out += markdownHead(head(plan, table.metrics));
+        "\n\nErrors by a bound, or by the efficient filter, are roots of ratios of mean squares, "
+        "which is what a bound is of.";
+  return out;
+}
+
+bool isShown(const TableSpec& table, const std::string& method)
+{
+  const auto& shown = table.methods;
+  return shown.empty() || std::find(shown.begin(), shown.end(), method) != shown.end();
+}
+
+/// A method's row, and under it what others published of it.
+void addRows(const Plan& plan, const Outcome& outcome, const TableSpec& spec, std::size_t cell,
+             std::size_t method, std::optional<std::size_t> reference, TableText& table)
+{
+  TableText::Row row{rowStart(plan, cell, method), false};
+  for (const std::string& name : spec.metrics)
+  {
+    const std::size_t k = *metricByName(name), group = plan.groupOf[cell][method];
+    row.fields.push_back(reference
+                             ? ratioOf(plan, outcome, group, plan.groupOf[cell][*reference], k)
+                             : meanOf(plan, outcome, group, k));
+  }
+  table.rows.push_back(row);
+  if (reference) return;
+  for (const Published& p : plan.spec.published)
+    if (p.method == plan.spec.methods[method].name && isOf(p, plan, plan.cells[cell]))
+      addPublished(p, spec.metrics, plan.cellValues(plan.cells[cell]), table);
+}
+}  // namespace
+
+TableText tableText(const Plan& plan, const Outcome& outcome, const TableSpec& spec)
+{
+  const auto reference = placeOf(plan.spec.methods, spec.reference);
+  TableText out{spec.title,
+                noteOf(plan, spec, reference),
+                plan.cellLabels().size() + 1,
+                head(plan, spec.metrics),
+                {}};
   for (std::size_t c = 0; c < plan.cells.size(); ++c)
-    for (std::size_t m = 0; m < spec.methods.size(); ++m)
-    {
-      if (reference && m == *reference) continue;
-      auto row = rowStart(plan, c, m);
-      for (const std::string& name : table.metrics)
-      {
-        const std::size_t k = *metricByName(name), group = plan.groupOf[c][m];
-        row.push_back(reference ? ratioOf(plan, outcome, group, plan.groupOf[c][*reference], k)
-                                   : meanOf(plan, outcome, group, k));
-      }
-      out += markdownLine(row);
-    }
-  return reference ? out : out + publishedRows(plan, table);
+    for (std::size_t m = 0; m < plan.spec.methods.size(); ++m)
+      if (m != reference && isShown(spec, plan.spec.methods[m].name))
+        addRows(plan, outcome, spec, c, m, reference, out);
+  if (reference) return out;
+  for (const Published& p : plan.spec.published)
+    if (p.method.empty())
+      addPublished(p, spec.metrics, std::vector<std::string>(plan.cellLabels().size(), ""), out);
+  return out;
+}
+
+std::vector<std::string> failureTexts(const Plan& plan, const Outcome& outcome)
+{
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < plan.runs.size() && out.size() < kFailuresShown; ++i)
+  {
+    const auto& record = outcome.records[i];
+    if (!record || record->error.empty()) continue;
+    const Group& group = plan.groups[plan.runs[i].group];
+    out.push_back(group.folder + ", seed " + std::to_string(record->seed) + ": " + record->error);
+  }
+  return out;
+}
+
+namespace
+{
+std::string markdownOf(const TableText& table)
+{
+  std::string out = table.title.empty() ? "\n" : "\n## " + table.title + "\n\n";
+  out += table.note + "\n\n" + markdownHead(table.head);
+  for (const TableText::Row& row : table.rows)
+  {
+    auto fields = row.fields;
+    if (row.isPublished)
+      for (std::string& field : fields)
+        if (!field.empty()) field = "*" + field + "*";
+    out += markdownLine(fields);
+  }
+  return out;
 }
 
 std::string failures(const Plan& plan, const Outcome& outcome)
@@ -136,16 +205,7 @@ std::string failures(const Plan& plan, const Outcome& outcome)
   if (outcome.failed == 0) return {};
   std::string out = "\n**" + std::to_string(outcome.failed) + " of " +
                     plural(plan.runs.size(), "run") + " failed; they are in no number above.**\n\n";
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < plan.runs.size() && shown < kFailuresShown; ++i)
-  {
-    const auto& record = outcome.records[i];
-    if (!record || record->error.empty()) continue;
-    const Group& group = plan.groups[plan.runs[i].group];
-    out += "- " + group.folder + ", seed " + std::to_string(record->seed) + ": " + record->error +
-           "\n";
-    ++shown;
-  }
+  for (const std::string& text : failureTexts(plan, outcome)) out += "- " + text + "\n";
   return out;
 }
 }  // namespace
@@ -153,7 +213,8 @@ std::string failures(const Plan& plan, const Outcome& outcome)
 std::string tableMarkdown(const Plan& plan, const Outcome& outcome)
 {
   std::string out = preamble(plan, outcome);
-  for (const TableSpec& table : plan.spec.tables) out += tableOf(plan, outcome, table);
+  for (const TableSpec& table : plan.spec.tables)
+    out += markdownOf(tableText(plan, outcome, table));
   return out + failures(plan, outcome);
 }
 }  // namespace slamot::study

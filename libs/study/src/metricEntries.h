@@ -34,10 +34,15 @@ struct MetricEntry
 [[nodiscard]] Value meanOver(const std::vector<eval::StepError>& steps,
                              const std::function<bool(const eval::StepError&)>& use,
                              const std::function<double(const eval::StepError&)>& value);
+/// Mean position error over the rows in [from, to), as shares of the run [m].
+[[nodiscard]] Value partMean(const Measured& run, const std::vector<eval::StepError>& steps,
+                             double from, double to);
 /// Of the errors' sizes [rad].
 [[nodiscard]] Value headingMean(const std::vector<eval::StepError>& steps);
 /// A collapsed particle set claims certainty, and its NEES outweighs all others in a mean.
 [[nodiscard]] Value neesMedian(const std::vector<eval::StepError>& steps);
+/// Each place's mean over the lists that have it; all are of one length, and there is one at least.
+[[nodiscard]] std::vector<Value> presentMeans(const std::vector<std::vector<Value>>& lists);
 /// [m]
 [[nodiscard]] double distance(const eval::StepError& s);
 

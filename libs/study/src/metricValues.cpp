@@ -6,6 +6,20 @@
 
 namespace slamot::study
 {
+std::vector<Value> presentMeans(const std::vector<std::vector<Value>>& lists)
+{
+  std::vector<Value> out(lists.front().size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+  {
+    double sum = 0;
+    int count = 0;
+    for (const auto& list : lists)
+      if (list[i]) sum += *list[i], ++count;
+    if (count > 0) out[i] = sum / count;
+  }
+  return out;
+}
+
 double distance(const eval::StepError& s)
 {
   return s.error.head<2>().norm();
@@ -21,6 +35,20 @@ Value meanOver(const std::vector<eval::StepError>& steps,
     if (use(s)) sum += value(s), ++count;
   if (count == 0) return std::nullopt;
   return sum / count;
+}
+
+Value partMean(const Measured& run, const std::vector<eval::StepError>& steps, double from,
+               double to)
+{
+  const auto rows = static_cast<double>(run.record.rows.size());
+  return meanOver(
+      steps,
+      [&](const eval::StepError& s)
+      {
+        const auto row = static_cast<double>(s.row);
+        return row >= from * rows && row < to * rows;
+      },
+      distance);
 }
 
 Value headingMean(const std::vector<eval::StepError>& steps)

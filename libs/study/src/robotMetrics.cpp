@@ -25,6 +25,11 @@ Value robotLargest(const Measured& r)
   return out;
 }
 
+std::function<Value(const Measured&)> robotPart(double from, double to)
+{
+  return [=](const Measured& r) { return partMean(r, r.evaluation.robot.steps, from, to); };
+}
+
 Value robotHeadingMean(const Measured& r)
 {
   return headingMean(r.evaluation.robot.steps);
@@ -67,6 +72,8 @@ std::vector<MetricEntry> robotMetrics()
       {{"robot_mean_m", "robot position error, mean [m]", 4}, robot(&E::positionMean)},
       {{"robot_rmse_m", "robot position RMSE [m]", 4}, robot(&E::positionRmse)},
       {{"robot_largest_m", "largest position error of a run [m]", 4}, robotLargest},
+      {{"robot_early_mean_m", "robot position error, first quarter [m]", 4}, robotPart(0, 0.25)},
+      {{"robot_late_mean_m", "robot position error, last quarter [m]", 4}, robotPart(0.75, 1)},
       {{"robot_heading_mean_rad", "robot heading error, mean [rad]", 4}, robotHeadingMean},
       {{"robot_heading_rmse_rad", "robot heading RMSE [rad]", 4}, robot(&E::headingRmse)},
       {{"robot_scans_mean_m", "robot position error at scans [m]", 4},

@@ -24,45 +24,75 @@ MessageFigures figuresOf(const team::Team& team, std::size_t robot, const eval::
   return out;
 }
 
-Values runTeam(Trial& trial, const BoundFigures* bound)
+Values measureTeam(const team::Team& team, const FinishedTrial& done, const BoundFigures* bound)
 {
-  team::Team& team = *trial.team;
-  std::vector<std::unique_ptr<eval::Recorder>> recorders;
-  std::vector<std::vector<core::Sink*>> sinks;
-  for (std::size_t r = 0; r < team.size(); ++r)
-  {
-    recorders.push_back(std::make_unique<eval::Recorder>(team.filter(r)));
-    sinks.push_back({recorders.back().get()});
-  }
-  team.run(sinks);
-  std::vector<eval::RunWithTruth> runs;
   std::map<int, const eval::Truth*> truths;
-  for (std::size_t r = 0; r < team.size(); ++r)
-  {
-    runs.push_back({&recorders[r]->record(), &trial.robots[r].truth()});
-    truths[static_cast<int>(r)] = runs.back().truth;
-  }
-  const auto evaluations = eval::evaluateTogether(runs, trial.evaluation);
+  for (std::size_t r = 0; r < team.size(); ++r) truths[static_cast<int>(r)] = done.truths[r];
   std::vector<Values> robots;
   for (std::size_t r = 0; r < team.size(); ++r)
   {
     MessageFigures figures;
-    if (team.member(r)) figures = figuresOf(team, r, *runs[r].truth, truths);
+    if (team.member(r)) figures = figuresOf(team, r, *done.truths[r], truths);
     robots.push_back(
-        measure(*runs[r].record, evaluations[r], team.member(r) ? &figures : nullptr, bound));
+        measure(done.records[r], done.evaluations[r], team.member(r) ? &figures : nullptr, bound));
   }
   return meanOf(robots);
 }
+
+void runTeam(team::Team& team, const eval::Recorder::Options& options, FinishedTrial& done)
+{
+  std::vector<std::unique_ptr<eval::Recorder>> recorders;
+  std::vector<std::vector<core::Sink*>> sinks;
+  for (std::size_t r = 0; r < team.size(); ++r)
+  {
+    recorders.push_back(std::make_unique<eval::Recorder>(team.filter(r), options));
+    sinks.push_back({recorders.back().get()});
+  }
+  team.run(sinks);
+  for (const auto& recorder : recorders) done.records.push_back(recorder->takeRecord());
+}
+
+void runAlone(Trial& trial, const eval::Recorder::Options& options, FinishedTrial& done)
+{
+  eval::Recorder recorder(*trial.filter, options);
+  core::run(*trial.robots[0].source, *trial.filter, {&recorder});
+  done.records.push_back(recorder.takeRecord());
+}
 }  // namespace
 
-Values runTrial(Trial& trial, const std::optional<BoundFigures>& known)
+std::vector<eval::RunWithTruth> FinishedTrial::runs() const
+{
+  std::vector<eval::RunWithTruth> out;
+  for (std::size_t r = 0; r < records.size(); ++r) out.push_back({&records[r], truths[r]});
+  return out;
+}
+
+FinishedTrial finish(Trial& trial, bool keepLasers)
+{
+  eval::Recorder::Options options;
+  options.keepLasers = keepLasers;
+  FinishedTrial done;
+  if (trial.team)
+    runTeam(*trial.team, options, done);
+  else
+    runAlone(trial, options, done);
+  for (std::size_t r = 0; r < done.records.size(); ++r)
+    done.truths.push_back(&trial.robots[r].truth());
+  if (trial.team)
+    done.evaluations = eval::evaluateTogether(done.runs(), trial.evaluation);
+  else
+    done.evaluations = {eval::evaluate(done.records[0], *done.truths[0], trial.evaluation)};
+  return done;
+}
+
+TrialResult runTrial(Trial& trial, const std::optional<BoundFigures>& known)
 {
   const BoundFigures* bound = known ? &*known : nullptr;
-  if (trial.team) return runTeam(trial, bound);
-  eval::Recorder recorder(*trial.filter);
-  core::run(*trial.robots[0].source, *trial.filter, {&recorder});
-  const auto evaluation =
-      eval::evaluate(recorder.record(), trial.robots[0].truth(), trial.evaluation);
-  return measure(recorder.record(), evaluation, nullptr, bound);
+  const FinishedTrial done = finish(trial);
+  TrialResult out;
+  out.metrics = trial.team ? measureTeam(*trial.team, done, bound)
+                           : measure(done.records[0], done.evaluations[0], nullptr, bound);
+  if (trial.timeBins > 0) out.curves = errorCurves(done.runs(), done.evaluations, trial.timeBins);
+  return out;
 }
 }  // namespace slamot::study

@@ -1,6 +1,7 @@
 #include "specReading.h"
 
 #include <slamot/core/Error.h>
+#include <slamot/study/ErrorCurves.h>
 #include <slamot/study/Metrics.h>
 
 #include <algorithm>
@@ -142,15 +143,29 @@ Axis readAxis(core::Config& study, const std::string& name, const StudySpec& spe
   return out;
 }
 
+namespace
+{
+/// Of the methods that there are, whether the study runs them or not.
+std::vector<std::string> readTableMethods(const core::Config& study, core::Params& table)
+{
+  auto names = table.list("methods");
+  for (const std::string& name : names)
+    if (!study.has("method." + name))
+      table.fail("methods", "there is no [method." + name + "]", "name those of this study");
+  return names;
+}
+}  // namespace
+
 std::vector<TableSpec> readTables(core::Config& study, core::Params& p, const StudySpec& spec)
 {
-  if (!p.has("tables")) return {{"errors", "", {"robot_mean_m", "target_mean_m"}, ""}};
+  if (!p.has("tables")) return {{"errors", "", {"robot_mean_m", "target_mean_m"}, "", {}}};
   std::vector<TableSpec> out;
   for (const std::string& name : p.list("tables"))
   {
     if (!study.has("table." + name)) p.fail("tables", "there is no [table." + name + "]", "add it");
     core::Params t(study, "table." + name);
-    TableSpec table{name, t.text("title", ""), readMetrics(t, "columns"), ""};
+    TableSpec table{name, t.text("title", ""), readMetrics(t, "columns"), "", {}};
+    if (t.has("methods")) table.methods = readTableMethods(study, t);
     if (t.flag("ratios", false))
     {
       if (spec.reference.empty() && !t.has("reference"))
@@ -164,7 +179,43 @@ std::vector<TableSpec> readTables(core::Config& study, core::Params& p, const St
   return out;
 }
 
-std::vector<PlotSpec> readPlots(core::Config& study, const std::vector<Axis>& axes)
+namespace
+{
+/// Names of curves.  \throws core::Error (kConfig) on one that there can't be.
+std::vector<std::string> readCurves(core::Params& p)
+{
+  const auto names = p.list("y", "robot_position_m, target_position_m");
+  for (const std::string& name : names)
+    if (!isCurveName(name))
+      p.fail("y", "'" + name + "' is no error over time",
+             "known: robot_position_m, robot_heading_rad, target_position_m, target_heading_rad, "
+             "and of one robot of a team robot<number>_position_m, robot<number>_heading_rad");
+  return names;
+}
+
+void readPlotOverTime(core::Params& p, const StudySpec& spec, PlotSpec& plot)
+{
+  plot.overTime = true;
+  if (spec.timeBins == 0)
+    p.fail("x", "the study keeps no errors over time", "set [study] time_bins, as to 60");
+  plot.metrics = readCurves(p);
+}
+
+void readPlotOverAxis(core::Params& p, const std::vector<Axis>& axes, const std::string& x,
+                      PlotSpec& plot)
+{
+  const auto axis = placeOf(axes, x);
+  if (!axis) p.fail("x", "'" + x + "' is not varied", "name one of [study] vary");
+  plot.axis = *axis;
+  const auto& values = axes[*axis].values;
+  if (!std::all_of(values.begin(), values.end(), isNumber))
+    p.fail("x", "the values of " + x + " are no numbers", "plot over another");
+  plot.metrics = readMetrics(p, "y", "robot_mean_m, target_mean_m");
+  plot.logX = p.flag("log_x", false);
+}
+}  // namespace
+
+std::vector<PlotSpec> readPlots(core::Config& study, const StudySpec& spec)
 {
   std::vector<PlotSpec> out;
   for (const std::string& section : study.sections())
@@ -175,20 +226,29 @@ std::vector<PlotSpec> readPlots(core::Config& study, const std::vector<Axis>& ax
     plot.name = section.substr(5);
     checkName(p, "", plot.name);
     plot.title = p.text("title", "");
-    if (axes.empty()) p.fail("x", "nothing is varied", "remove the plot, or set [study] vary");
-    const std::string x = p.text("x", axes.front().name);
-    const auto axis = placeOf(axes, x);
-    if (!axis) p.fail("x", "'" + x + "' is not varied", "name one of [study] vary");
-    plot.axis = *axis;
-    const auto& values = axes[*axis].values;
-    if (!std::all_of(values.begin(), values.end(), isNumber))
-      p.fail("x", "the values of " + x + " are no numbers", "plot over another");
-    plot.metrics = readMetrics(p, "y", "robot_mean_m, target_mean_m");
-    plot.logX = p.flag("log_x", false);
+    if (spec.axes.empty() && !p.has("x"))
+      p.fail("x", "nothing is varied", "remove the plot, or set [study] vary, or x to time");
+    const std::string x = p.text("x", spec.axes.empty() ? "" : spec.axes.front().name);
+    if (x == "time" && !placeOf(spec.axes, x))
+      readPlotOverTime(p, spec, plot);
+    else
+      readPlotOverAxis(p, spec.axes, x, plot);
     out.push_back(plot);
   }
   return out;
 }
+
+namespace
+{
+/// Of axes that [study] vary leaves out, too.
+std::vector<std::string> axisNames(const core::Config& study)
+{
+  std::vector<std::string> out;
+  for (const std::string& section : study.sections())
+    if (section.rfind("vary.", 0) == 0) out.push_back(section.substr(5));
+  return out;
+}
+}  // namespace
 
 std::vector<Published> readPublished(core::Config& study)
 {
@@ -197,7 +257,15 @@ std::vector<Published> readPublished(core::Config& study)
   {
     if (section.rfind("published.", 0) != 0) continue;
     core::Params p(study, section);
-    Published row{p.text("label", section.substr(10)), {}};
+    Published row;
+    row.label = p.text("label", section.substr(10));
+    row.method = p.text("method", "");
+    if (!row.method.empty() && !study.has("method." + row.method))
+      p.fail("method", "there is no [method." + row.method + "]", "name one, or remove it");
+    for (const std::string& axis : axisNames(study))
+      if (p.has(axis)) row.byAxis[axis] = p.text(axis);
+    if (row.method.empty() && !row.byAxis.empty())
+      p.fail("method", "missing", "tell which method's row in that cell it stands under");
     for (const Metric& m : metrics())
       if (p.has(m.name)) row.byMetric[m.name] = p.text(m.name);
     out.push_back(row);

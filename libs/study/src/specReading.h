@@ -25,7 +25,7 @@ Axis readAxis(core::Config& study, const std::string& name, const StudySpec& spe
 /// The tables that [study] tables names; without it, one of the two mean errors.
 std::vector<TableSpec> readTables(core::Config& study, core::Params& p, const StudySpec& spec);
 /// All [plot.<name>] and all [published.<name>].
-std::vector<PlotSpec> readPlots(core::Config& study, const std::vector<Axis>& axes);
+std::vector<PlotSpec> readPlots(core::Config& study, const StudySpec& spec);
 std::vector<Published> readPublished(core::Config& study);
 
 /// The place of a name in a list of things that have one.

@@ -10,20 +10,6 @@ using eval::ErrorSummary;
 using eval::StepError;
 using Pick = Value ErrorSummary::*;
 
-/// Mean position error over the rows in [from, to), as shares of the run.
-Value partMean(const Measured& run, const std::vector<StepError>& steps, double from, double to)
-{
-  const auto rows = static_cast<double>(run.record.rows.size());
-  return meanOver(
-      steps,
-      [&](const StepError& s)
-      {
-        const auto row = static_cast<double>(s.row);
-        return row >= from * rows && row < to * rows;
-      },
-      distance);
-}
-
 /// The mean over the true targets that have the value.
 template <class F>
 Value overTargets(const Measured& run, F&& value)

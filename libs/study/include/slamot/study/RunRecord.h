@@ -1,5 +1,6 @@
 #pragma once
 
+#include <slamot/study/ErrorCurves.h>
 #include <slamot/study/Plan.h>
 
 #include <optional>
@@ -15,6 +16,7 @@ struct RunRecord
   int status = 0;     ///< and with what exit status
   std::vector<std::optional<double>>
       metrics;                 ///< in the order of study::metrics(); if it failed, empty
+  ErrorCurves curves;          ///< if the study keeps them
   double wallS = 0, cpuS = 0;  ///< [s], of its thread
 };
 

@@ -45,14 +45,17 @@ struct TableSpec
   std::string name, title;
   std::vector<std::string> metrics;
   std::string reference;  ///< the method by whose means others' are divided; empty: means
+  std::vector<std::string> methods;  ///< the rows; empty: all
 };
 
-/// A figure of metrics over an axis, one panel for each metric; section [plot.<name>].
+/// A figure of metrics over an axis, or of errors over a run's time, one panel for each: section
+/// [plot.<name>].
 struct PlotSpec
 {
   std::string name, title;
-  std::size_t axis = 0;  ///< place in StudySpec::axes
-  std::vector<std::string> metrics;
+  bool overTime = false;             ///< x = time: see ErrorCurves
+  std::size_t axis = 0;              ///< else: place in StudySpec::axes
+  std::vector<std::string> metrics;  ///< or names of curves
   bool logX = false;
 };
 
@@ -60,8 +63,16 @@ struct PlotSpec
 struct Published
 {
   std::string label;
+  std::string method;                           ///< whose row it stands under; empty: at the end
+  std::map<std::string, std::string> byAxis;    ///< and in which cells; by name, as shown
   std::map<std::string, std::string> byMetric;  ///< as printed there
 };
+
+/// Sets `Section.key=value`, as of --set, where the key may itself be a Section.key of another
+/// file: it belongs to the longest of the sections.  \param more sections that need not be there
+/// \throws core::Error (kConfig) on another form.
+void assign(core::Config& config, const std::string& assignment,
+            const std::vector<std::string>& more = {});
 
 /// A Monte-Carlo study: methods, data, what is varied, seeds, and what is to be shown.
 struct StudySpec
@@ -80,6 +91,7 @@ struct StudySpec
   double landmarkCutoff = 1;      ///< see eval::EvaluationOptions [m]
   double gospaCutoff = 1;         ///< the same [m]
   bool bound = true;              ///< if simulated: whether to compute each world's bound
+  int timeBins = 0;               ///< parts of a run's time in which to keep its errors; 0: none
   std::vector<TableSpec> tables;  ///< of the page, in the order of [study] tables
   std::vector<PlotSpec> plots;
   std::vector<Published> published;

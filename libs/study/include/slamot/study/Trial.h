@@ -2,6 +2,7 @@
 
 #include <slamot/core/run.h>
 #include <slamot/eval/Evaluation.h>
+#include <slamot/study/ErrorCurves.h>
 #include <slamot/study/Metrics.h>
 #include <slamot/study/Plan.h>
 #include <slamot/team/Team.h>
@@ -25,6 +26,7 @@ struct Trial
   std::unique_ptr<core::Filter> filter;  ///< of the one robot; null in a team
   std::unique_ptr<team::Team> team;
   eval::EvaluationOptions evaluation;
+  int timeBins = 0;
   std::string effective;  ///< all that the result depends on, but seed and program
   /// Which simulated world it is, the same for all methods; and its bound, null without one, or
   /// where errors are taken otherwise than from the map's frame.
@@ -36,8 +38,27 @@ struct Trial
 [[nodiscard]] Trial openTrial(const StudySpec& spec, const Cell& cell, const Method& method,
                               std::uint64_t seed);
 
-/// Runs it to its end, and takes its metrics: of a team the means over its robots.
+/// What became of each robot of a trial; refers to the trial, which must outlive it.
+struct FinishedTrial
+{
+  std::vector<eval::Record> records;
+  std::vector<const eval::Truth*> truths;
+  std::vector<eval::Evaluation> evaluations;
+
+  [[nodiscard]] std::vector<eval::RunWithTruth> runs() const;
+};
+
+/// Runs it to its end.  \param keepLasers whether records are to hold laser scans
+[[nodiscard]] FinishedTrial finish(Trial& trial, bool keepLasers = false);
+
+/// A trial in numbers: of a team the means over its robots.
+struct TrialResult
+{
+  std::vector<std::optional<double>> metrics;  ///< in the order of metrics()
+  ErrorCurves curves;                          ///< none unless the study keeps them
+};
+
+/// Runs it to its end, and takes its numbers.
 /// \param bound of its world, if it is known
-[[nodiscard]] std::vector<std::optional<double>> runTrial(
-    Trial& trial, const std::optional<BoundFigures>& bound = {});
+[[nodiscard]] TrialResult runTrial(Trial& trial, const std::optional<BoundFigures>& bound = {});
 }  // namespace slamot::study

@@ -32,6 +32,18 @@ struct ExecuteResult
 /// \throws core::Error (kUnreadable) if a record can't be written.
 ExecuteResult execute(const Plan& plan, const std::string& folder, const ExecuteOptions& options);
 
+/// A study to be done, and the folder of its records.
+struct Job
+{
+  const Plan* plan = nullptr;
+  std::string folder;
+};
+
+/// The same for several studies at once, with one crew of threads.  All go forward together, seed
+/// by seed, so that what is left takes as long as it seems to.
+/// \return one result for each job
+std::vector<ExecuteResult> execute(const std::vector<Job>& jobs, const ExecuteOptions& options);
+
 /// One run.
 [[nodiscard]] RunRecord executeRun(const Plan& plan, const Run& run);
 }  // namespace slamot::study

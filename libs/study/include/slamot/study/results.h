@@ -10,8 +10,12 @@ namespace slamot::study
 [[nodiscard]] results::Figure figureOf(const Plan& plan, const Outcome& outcome,
                                        const PlotSpec& plot);
 
-/// Writes table.md, table.csv, runs.csv, timing.csv, <plot>.svg and <plot>.png into a folder, each
-/// whole or not at all.  \throws core::Error (kUnreadable; kInternal without gnuplot).
+/// Writes table.md, table.csv, runs.csv and timing.csv into a folder, each whole or not at all.
+/// \throws core::Error (kUnreadable).
+void saveTables(const std::string& folder, const Plan& plan, const Outcome& outcome);
+
+/// The same, and <plot>.svg and <plot>.png.
+/// \throws core::Error (kUnreadable; kInternal without gnuplot).
 void saveResults(const std::string& folder, const Plan& plan, const Outcome& outcome);
 
 /// Writes study.ini and the files that it names (config/), from which the study can be repeated.

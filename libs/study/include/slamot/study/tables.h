@@ -3,9 +3,28 @@
 #include <slamot/study/Outcome.h>
 
 #include <string>
+#include <vector>
 
 namespace slamot::study
 {
+/// A table as text: a row for each cell and method, and what others published among them.
+struct TableText
+{
+  struct Row
+  {
+    std::vector<std::string> fields;
+    bool isPublished = false;
+  };
+  std::string title, note;      ///< the note says what the numbers are
+  std::size_t leadColumns = 1;  ///< those that name the row
+  std::vector<std::string> head;
+  std::vector<Row> rows;
+};
+[[nodiscard]] TableText tableText(const Plan& plan, const Outcome& outcome, const TableSpec& table);
+
+/// Which runs failed and why, at most twenty of them: one sentence for each.
+[[nodiscard]] std::vector<std::string> failureTexts(const Plan& plan, const Outcome& outcome);
+
 /// The page: what was run, means with their 95% intervals and deviations, ratios to the reference,
 /// published figures, failures.  Depends on the records' numbers only, not on who made them.
 [[nodiscard]] std::string tableMarkdown(const Plan& plan, const Outcome& outcome);
