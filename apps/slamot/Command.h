@@ -36,6 +36,7 @@ void addRun(CLI::App& app, int& status);
 void addEvaluate(CLI::App& app, int& status);
 void addRender(CLI::App& app, int& status);
 void addStudy(CLI::App& app, int& status);
+void addReproduce(CLI::App& app, int& status);
 void addTeam(CLI::App& app, int& status);
 void addRobot(CLI::App& app, int& status);
 void addDetect(CLI::App& app, int& status);

@@ -78,6 +78,7 @@ int runCommand(int argc, char** argv)
   slamot::apps::addRender(app, status);
   slamot::apps::addSimulate(app, status);
   slamot::apps::addStudy(app, status);
+  slamot::apps::addReproduce(app, status);
   slamot::apps::addTeam(app, status);
   slamot::apps::addRobot(app, status);
   slamot::apps::addImport(app, status);

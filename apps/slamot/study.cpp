@@ -9,6 +9,7 @@
 
 #include "Command.h"
 #include "Progress.h"
+#include "studyOptions.h"
 
 namespace slamot::apps
 {
@@ -17,6 +18,7 @@ namespace
 namespace fs = std::filesystem;
 using core::Error;
 using core::ExitStatus;
+constexpr const char* kAgain = "run the study again";
 
 struct StudyCommand
 {
@@ -24,16 +26,6 @@ struct StudyCommand
   std::string study, shard;
   std::vector<std::string> merge;
 };
-
-// I/N, I from 1 to N; 0 stands for N, so that arrays may count from either.
-void readShard(const std::string& text, study::ExecuteOptions& options)
-{
-  char rest = 0;
-  const int read = std::sscanf(text.c_str(), "%d/%d%c", &options.shard, &options.shards, &rest);
-  if (read != 2 || options.shards < 1 || options.shard < 0 || options.shard > options.shards)
-    throw Error(ExitStatus::kConfig, "--shard " + text, "is not I/N with I from 1 to N",
-                "write --shard 1/8 to --shard 8/8");
-}
 
 std::string outputOf(const StudyCommand& o)
 {
@@ -47,23 +39,6 @@ study::Plan planOf(const StudyCommand& o)
   auto set = o.common.set;
   if (o.common.seedGiven) set.push_back("study.first_seed=" + std::to_string(o.common.seed));
   return study::Plan(study::StudySpec::load(o.study, set));
-}
-
-void noteStale(std::size_t count, const char* what)
-{
-  if (count > 0)
-    std::fprintf(stderr, "slamot: %zu record%s of another spec or version, or damaged: %s\n", count,
-                 count == 1 ? "" : "s", what);
-}
-
-[[noreturn]] void fail(const std::string& folder, std::size_t failed, std::size_t of,
-                       const study::RunRecord& first)
-{
-  throw Error(static_cast<ExitStatus>(first.status), folder,
-              std::to_string(failed) + " of " + std::to_string(of) +
-                  " runs failed, one of them, seed " + std::to_string(first.seed) +
-                  ", with: " + first.error,
-              "mend that and run the study again: it does what is missing");
 }
 
 void publish(const StudyCommand& o, const study::Plan& plan, const std::string& folder,
@@ -88,7 +63,7 @@ ExitStatus merge(const StudyCommand& o, const study::Plan& plan)
   publish(o, plan, outputOf(o), outcome);
   for (const auto& record : outcome.records)
     if (record && !record->error.empty())
-      fail(o.merge.front(), outcome.failed, plan.runs.size(), *record);
+      failRuns(o.merge.front(), outcome.failed, plan.runs.size(), *record, kAgain);
   return ExitStatus::kDone;
 }
 
@@ -114,7 +89,7 @@ ExitStatus execute(const StudyCommand& o, const study::Plan& plan)
     std::fprintf(stderr, "slamot: interrupted; the same command goes on from here\n");
     return ExitStatus::kInterrupted;
   }
-  if (result.firstFailed) fail(folder, result.failed, result.runs, *result.firstFailed);
+  if (result.firstFailed) failRuns(folder, result.failed, result.runs, *result.firstFailed, kAgain);
   return ExitStatus::kDone;
 }
 }  // namespace

@@ -5,9 +5,7 @@
 
 namespace slamot::results
 {
-namespace
-{
-std::string escaped(const std::string& text)
+std::string escapedHtml(const std::string& text)
 {
   std::string out;
   for (const char c : text)
@@ -26,9 +24,12 @@ std::string escaped(const std::string& text)
   return out;
 }
 
-std::string element(const char* tag, const std::string& text)
+namespace
 {
-  return std::string("<") + tag + ">" + escaped(text) + "</" + tag + ">";
+std::string element(const char* tag, const std::string& text, const std::string& id = {})
+{
+  const std::string named = id.empty() ? "" : " id=\"" + escapedHtml(id) + "\"";
+  return std::string("<") + tag + named + ">" + escapedHtml(text) + "</" + tag + ">";
 }
 
 /// A path as a relative reference: what is not plain is a percent sign and its byte, and a colon is
@@ -55,6 +56,7 @@ const char* const kStyle = R"(
 body{margin:0 auto;max-width:62rem;padding:1.5rem 1rem 3rem;background:var(--paper);color:var(--ink-text);
 font:1rem/1.5 system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
 h1{font-size:1.6rem;line-height:1.25;margin:0 0 .2rem;overflow-wrap:anywhere}
+h3{font-size:1.02rem;margin:1.8rem 0 .5rem}
 h2{font-size:1.15rem;margin:2.2rem 0 .6rem;padding-bottom:.25rem;border-bottom:1px solid var(--ink-grid)}
 .sub,figcaption,.note{color:var(--faint)}
 .sub{margin:0}
@@ -76,7 +78,7 @@ pre{margin:0;padding:.8rem 1rem;border-radius:.4rem;background:var(--shade);over
 pre{white-space:pre-wrap}.banner{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 
-std::string style()
+std::string baseStyle()
 {
   return ":root{color-scheme:light dark;--paper:#fff;--shade:#f6f8fa;--faint:#57606a;" +
          inkVariables(false) + "}\n@media screen and (prefers-color-scheme:dark){:root{" +
@@ -91,12 +93,16 @@ HtmlPage::HtmlPage(const std::string& title, const std::string& subtitle)
 
 void HtmlPage::banner(const std::string& text)
 {
-  body_ += "<p class=\"banner\" role=\"alert\">" + escaped(text) + "</p>\n";
+  body_ += "<p class=\"banner\" role=\"alert\">" + escapedHtml(text) + "</p>\n";
 }
 
-void HtmlPage::heading(const std::string& text)
+void HtmlPage::heading(const std::string& text, const std::string& id)
 {
-  body_ += element("h2", text) + "\n";
+  body_ += element("h2", text, id) + "\n";
+}
+void HtmlPage::subheading(const std::string& text, const std::string& id)
+{
+  body_ += element("h3", text, id) + "\n";
 }
 void HtmlPage::paragraph(const std::string& text)
 {
@@ -106,7 +112,7 @@ void HtmlPage::links(const std::vector<std::pair<std::string, std::string>>& tex
 {
   body_ += "<ul>\n";
   for (const auto& [text, path] : textsAndPaths)
-    body_ += "<li><a href=\"" + reference(path) + "\">" + escaped(text) + "</a></li>\n";
+    body_ += "<li><a href=\"" + reference(path) + "\">" + escapedHtml(text) + "</a></li>\n";
   body_ += "</ul>\n";
 }
 
@@ -132,20 +138,25 @@ void HtmlPage::table(const Table& table)
 
 void HtmlPage::figure(const std::string& caption, const Figure& figure)
 {
-  body_ += "<figure>" + element("figcaption", caption) + "\n";
   try
   {
-    const std::string prefix = "f" + std::to_string(++figures_) + "-";
-    std::string svg = inlineSvg(drawFigure(figure, PictureFormat::kSvg), prefix);
-    svg.insert(svg.find("<svg") + 4, " role=\"img\" aria-label=\"" + escaped(caption) + "\"");
-    body_ += svg;
+    svg(caption, drawFigure(figure, PictureFormat::kSvg));
   }
   catch (const core::Error& e)
   {
     missingPlots_ = e.what();
-    body_ += "<p class=\"note\">This plot is missing: " + escaped(e.what()) + "</p>\n";
+    body_ += "<figure>" + element("figcaption", caption) +
+             "\n<p class=\"note\">This plot is missing: " + escapedHtml(e.what()) +
+             "</p>\n</figure>\n";
   }
-  body_ += "</figure>\n";
+}
+
+void HtmlPage::svg(const std::string& caption, const std::string& picture)
+{
+  const std::string prefix = "f" + std::to_string(++figures_) + "-";
+  std::string drawn = inlineSvg(picture, prefix);
+  drawn.insert(drawn.find("<svg") + 4, " role=\"img\" aria-label=\"" + escapedHtml(caption) + "\"");
+  body_ += "<figure>" + element("figcaption", caption) + "\n" + drawn + "</figure>\n";
 }
 
 void HtmlPage::figuresInRow(const std::vector<std::pair<std::string, Figure>>& captionsAndFigures)
@@ -159,8 +170,8 @@ std::string HtmlPage::html() const
 {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
          std::string("<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n") +
-         element("title", title_) + "\n<style>\n" + style() +
+         element("title", title_) + "\n<style>\n" + baseStyle() + style_ +
          "</style>\n</head>\n<body>\n<header>" + element("h1", title_) + "\n<p class=\"sub\">" +
-         escaped(subtitle_) + "</p></header>\n" + body_ + "</body>\n</html>\n";
+         escapedHtml(subtitle_) + "</p></header>\n" + body_ + "</body>\n</html>\n";
 }
 }  // namespace slamot::results

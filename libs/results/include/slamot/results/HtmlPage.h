@@ -15,15 +15,19 @@ struct Table
   std::vector<std::vector<std::string>> rows;
 };
 
+/// A text as HTML shows it literally.
+[[nodiscard]] std::string escapedHtml(const std::string& text);
+
 /// A page that needs nothing but itself: pictures and style inline, nothing fetched; for light and
-/// dark screens and for paper.  All text is taken literally.
+/// dark screens and for paper.  All text is taken literally, but for that of markup().
 class HtmlPage
 {
  public:
   HtmlPage(const std::string& title, const std::string& subtitle);
 
   void banner(const std::string& text);  ///< what no reader may overlook
-  void heading(const std::string& text);
+  void heading(const std::string& text, const std::string& id = {});
+  void subheading(const std::string& text, const std::string& id = {});
   void paragraph(const std::string& text);
   void table(const Table& table);
   /// A list of links to files beside the page, by their paths from there.
@@ -31,8 +35,14 @@ class HtmlPage
   void preformatted(const std::string& text);
   /// A plot with a caption.  Where gnuplot fails the page says so in its place, and goes on.
   void figure(const std::string& caption, const Figure& figure);
+  /// The same of a picture as drawFigure() has drawn it.
+  void svg(const std::string& caption, const std::string& picture);
   /// Plots with their captions, side by side as far as the page is wide enough.
   void figuresInRow(const std::vector<std::pair<std::string, Figure>>& captionsAndFigures);
+
+  /// What there is no word for here: HTML that has its text escaped, and style sheets for it.
+  void markup(const std::string& html) { body_ += html; }
+  void style(const std::string& css) { style_ += css; }
 
   /// The whole page.
   [[nodiscard]] std::string html() const;
@@ -40,7 +50,7 @@ class HtmlPage
   [[nodiscard]] const std::string& missingPlots() const { return missingPlots_; }
 
  private:
-  std::string title_, subtitle_, body_, missingPlots_;
+  std::string title_, subtitle_, style_, body_, missingPlots_;
   int figures_ = 0;
 };
 }  // namespace slamot::results

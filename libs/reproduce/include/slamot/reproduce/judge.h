@@ -1,0 +1,55 @@
+#pragma once
+
+#include <slamot/reproduce/PaperSpec.h>
+#include <slamot/study/Outcome.h>
+
+namespace slamot::reproduce
+{
+/// What became of a condition in one cell.
+enum class Status
+{
+  kMet,     ///< the whole interval is where it should be
+  kOpen,    ///< the interval reaches over the bound: the runs do not decide
+  kFailed,  ///< the whole interval is on the other side
+  kNotRun,  ///< there are no runs, or they have no such number
+  kLeftOut  ///< the quick reproduction leaves the method or the cell out
+};
+
+/// A condition in one cell, with the numbers that decided.
+struct Check
+{
+  std::string what;      ///< what was measured
+  std::string measured;  ///< with its interval
+  std::string claimed;   ///< what it is held against
+  std::string remark;    ///< how far off, if it is
+  Status status = Status::kNotRun;
+};
+
+enum class Verdict
+{
+  kHolds,
+  kInPart,
+  kDoesNotHold,
+  kNotTestable,
+  kNotRun  ///< left out of the quick reproduction, or its runs are missing
+};
+
+struct Judgement
+{
+  Verdict verdict = Verdict::kNotRun;
+  bool isUndecided = false;  ///< in part only because nothing was decided
+  std::vector<Check> checks;
+};
+
+/// Judges a claim by its study's records; nothing else enters the verdict.  All conditions met: it
+/// holds; none met, and none open: it does not hold; else it holds in part.
+/// \param plan, outcome of its study; null: it was not run
+[[nodiscard]] Judgement judge(const Claim& claim, const study::Plan* plan,
+                              const study::Outcome* outcome);
+
+/// The status of a number that is held against a bound.
+[[nodiscard]] Status statusOf(const math::MeanInterval& value, const Bound& bound);
+
+/// "holds", "holds in part", ...
+[[nodiscard]] std::string verdictText(Verdict verdict);
+}  // namespace slamot::reproduce
