@@ -14,6 +14,8 @@ install(FILES ${PROJECT_BINARY_DIR}/slamot-config.cmake
 set(share ${PROJECT_SOURCE_DIR}/share)
 install(PROGRAMS ${share}/dds-security/make-keys
   DESTINATION ${CMAKE_INSTALL_DATADIR}/slamot/dds-security COMPONENT program)
+install(PROGRAMS ${share}/slurm/reproduce.sbatch
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/slamot/slurm COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config-ini ${share}/datasets
   DESTINATION ${CMAKE_INSTALL_DATADIR}/slamot COMPONENT program PATTERN .gitkeep EXCLUDE)
 

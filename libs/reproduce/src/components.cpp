@@ -83,6 +83,13 @@ std::string checkTable(const std::vector<Check>& checks)
          rows + "</tbody></table></div>\n";
 }
 
+std::string undecidedOf(const std::vector<SummaryRow>& rows)
+{
+  const auto n = std::count_if(rows.begin(), rows.end(),
+                               [](const SummaryRow& r) { return r.judgement.isUndecided; });
+  return n == 0 ? "" : " " + tag("span", "faint", std::to_string(n) + " of them undecided");
+}
+
 std::string counts(const std::vector<SummaryRow>& rows)
 {
   std::string out;
@@ -94,7 +101,8 @@ std::string counts(const std::vector<SummaryRow>& rows)
     if (n == 0 && v == Verdict::kNotRun) continue;
     Judgement only;
     only.verdict = v;
-    out += "<li>" + tag("span", "count", std::to_string(n)) + " " + badge(only) + "</li>\n";
+    out += "<li>" + tag("span", "count", std::to_string(n)) + " " + badge(only) +
+           (v == Verdict::kInPart ? undecidedOf(rows) : "") + "</li>\n";
   }
   return "<ul class=\"counts\">\n" + out + "</ul>\n";
 }

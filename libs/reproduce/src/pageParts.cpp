@@ -67,12 +67,26 @@ std::string plotCaption(const study::PlotSpec& plot, const study::StudySpec& spe
          (plot.overTime ? "; the bands are 95% intervals." : "; the bars are 95% intervals.");
 }
 
+/// Maps, which are narrow, side by side; all else one under the other.
+void addPictures(HtmlPage& page, const std::vector<Picture>& pictures,
+                 const std::vector<Drawn>& drawn)
+{
+  bool isInRow = false;
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+  {
+    const bool isMap = pictures[i].kind == Picture::Kind::kMap;
+    if (isMap != isInRow) page.markup(isMap ? "<div class=\"maps\">\n" : "</div>\n");
+    isInRow = isMap;
+    addPicture(page, pictures[i], drawn[i]);
+  }
+  if (isInRow) page.markup("</div>\n");
+}
+
 void addEvidence(HtmlPage& page, const Section& section, const StudyRun& study,
                  const std::vector<Drawn>& pictures)
 {
   const study::Plan& plan = *study.plan;
-  for (std::size_t i = 0; i < pictures.size(); ++i)
-    addPicture(page, section.pictures[i], pictures[i]);
+  addPictures(page, section.pictures, pictures);
   for (const std::string& name : section.plots)
   {
     study::PlotSpec plot = named(plan.spec.plots, name);

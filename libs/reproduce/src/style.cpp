@@ -32,8 +32,10 @@ white-space:nowrap;color:#fff;background:var(--none)}
 .study td,.study th{white-space:nowrap}
 .study th{white-space:normal;min-width:6.5rem}
 .lead1 :is(td,th):nth-child(-n+1),.lead2 :is(td,th):nth-child(-n+2),.lead3 :is(td,th):nth-child(-n+3),
-.lead4 :is(td,th):nth-child(-n+4){text-align:left;padding-left:0}
-.study td{vertical-align:top}.study td .faint{font-size:.85rem}.study .same{color:var(--ink-grid)}
+.lead4 :is(td,th):nth-child(-n+4){text-align:left;padding-left:0;white-space:normal;max-width:12rem}
+.study td{vertical-align:top}.study td .faint{font-size:.85rem}.study td.same{color:var(--ink-axis);white-space:nowrap;overflow:hidden;text-overflow:ellipsis}
+.maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(27rem,100%),1fr));gap:0 1.2rem;align-items:start}
+.maps figure{max-width:44rem}
 .published td{font-style:italic;background:var(--shade)}
 details{margin:1rem 0}
 summary{cursor:pointer;color:var(--ink-blue)}
@@ -41,7 +43,7 @@ nav ol{margin:.5rem 0;padding-left:1.2rem}
 .again{font-size:.93rem;color:var(--faint);margin:1.2rem 0 .3rem}
 @media (max-width:44rem){
 .verdicts li{grid-template-columns:1fr}
-figure{overflow-x:auto}figure svg{min-width:38rem}.row figure svg{min-width:0}
+figure{overflow-x:auto}figure svg{min-width:38rem}.row figure svg,.maps figure svg{min-width:0}
 .claim{padding-left:.7rem;padding-right:.5rem}
 .checks,.checks tbody{display:block}.checks thead{display:none}
 .checks tr{display:grid;grid-template-columns:auto 1fr auto;gap:.1rem .9rem;padding:.4rem 0;border-bottom:1px solid var(--ink-grid)}
