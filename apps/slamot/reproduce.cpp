@@ -148,9 +148,9 @@ void addOptions(CLI::App& command, const std::shared_ptr<ReproduceCommand>& o)
   command.get_option("--threads")->description("Runs at a time; results do not depend on it");
   command
       .add_option("name", o->name,
-                  "all, rbpf-slamot, ekf-slamot-ci, fastslam-family or glint; or a file")
+                  "All papers or one, by the name of its reproduce.NAME.ini; or such a file")
       ->required()
-      ->type_name("NAME");
+      ->type_name("NAME:{all,rbpf-slamot,ekf-slamot-ci,fastslam-family}");
   command.add_flag("--quick", o->isQuick, "Few seeds and a part of the cells: minutes, not hours");
   command.add_option("--configs", o->configs, "Where reproduce.NAME.ini is (default config-ini)")
       ->type_name("DIR");
@@ -172,8 +172,9 @@ void addReproduce(CLI::App& app, int& status)
   auto o = std::make_shared<ReproduceCommand>();
   CLI::App* command = app.add_subcommand(
       "reproduce",
-      "Every table and figure of a paper, or of all, beside the published ones, and a verdict for "
-      "each claim, as one page.  A rerun does only what is missing.\n"
+      "Repeat papers: their tables and figures beside the published ones, and a verdict on each "
+      "claim.\n"
+      "One page; a rerun does only what is missing.\n"
       "Example: slamot reproduce all --quick --threads 2\n"
       "Spread:  parallel slamot reproduce all -o out --shard {}/8 ::: 1 2 3 4 5 6 7 8; "
       "slamot reproduce all --merge out");

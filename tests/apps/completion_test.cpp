@@ -33,7 +33,7 @@ TEST(Completion, ProposesTheCommandsOfTheHelp)
   for (const std::string& command : commands)
     EXPECT_NE(help.find("\n  " + command + " "), std::string::npos) << command;
   EXPECT_EQ(propose("si"), Words{"simulate"});
-  EXPECT_EQ(propose("r"), (Words{"render", "robot", "run"}));
+  EXPECT_EQ(propose("r"), (Words{"render", "reproduce", "robot", "run"}));
   EXPECT_EQ(propose("--v"), Words{"--version"});
 }
 

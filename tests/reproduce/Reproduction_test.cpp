@@ -1,3 +1,4 @@
+#include <slamot/core/Error.h>
 #include <slamot/filters/registerAll.h>
 
 #include <regex>
@@ -194,5 +195,30 @@ TEST_F(Reproduce, EachPaperOfAListHasAFolderOfItsOwn)
   EXPECT_EQ(all.title(), "Tiny papers");
   ASSERT_EQ(all.studies().size(), 1u);
   EXPECT_EQ(all.studies()[0].folder, "tiny/study");
+}
+
+TEST_F(Reproduce, OfSeveralPapersThoseThatHaveASectionAreSet)
+{
+  paper.study().folder().write("reproduce.other.ini",
+                               "[paper]\ntitle = Other\ncitation = x\nsections = only\n"
+                               "[section.only]\nstudy = study.ini\n");
+  paper.study().folder().write("reproduce.both.ini",
+                               "[papers]\ntitle = Both\nfiles = reproduce.tiny.ini, "
+                               "reproduce.other.ini\n");
+  const Reproduction both("both", paper.file("."),
+                          {false, {"section.only.set.study.seeds=3"}, std::nullopt});
+  EXPECT_EQ(both.papers()[0].sections[0].study.seeds, 4);
+  EXPECT_EQ(both.papers()[1].sections[0].study.seeds, 3);
+  try
+  {
+    const Reproduction none("both", paper.file("."), {false, {"section.nil.x=3"}, std::nullopt});
+    ADD_FAILURE() << "nothing thrown";
+  }
+  catch (const core::Error& e)
+  {
+    EXPECT_EQ(std::string(e.what()).rfind("--set section.nil.x=3: no paper has such a section", 0),
+              0u)
+        << e.what();
+  }
 }
 }  // namespace slamot::reproduce::test

@@ -1,5 +1,6 @@
 #include <slamot/reproduce/Reproduction.h>
 
+#include <slamot/core/Config.h>
 #include <slamot/core/Error.h>
 #include <slamot/results/TextFile.h>
 
@@ -21,6 +22,36 @@ std::string folderOf(const std::string& studyPath)
   if (name.rfind("study.", 0) == 0) name = name.substr(6);
   return name;
 }
+
+bool isOf(const core::Config& paper, const std::string& assignment)
+{
+  const auto sections = paper.sections();
+  return std::any_of(sections.begin(), sections.end(),
+                     [&](const std::string& s) { return assignment.rfind(s + ".", 0) == 0; });
+}
+
+/// What is set in each of the papers: of several, in those that have the section.
+std::vector<std::vector<std::string>> setsOf(const std::vector<std::string>& files,
+                                             const std::vector<std::string>& set)
+{
+  if (files.size() == 1) return {set};
+  std::vector<std::vector<std::string>> out(files.size());
+  for (const std::string& assignment : set)
+  {
+    bool isTaken = false;
+    for (std::size_t i = 0; i < files.size(); ++i)
+    {
+      if (!isOf(core::Config::load(files[i]), assignment)) continue;
+      out[i].push_back(assignment);
+      isTaken = true;
+    }
+    if (!isTaken)
+      throw core::Error(core::ExitStatus::kConfig, "--set " + assignment,
+                        "no paper has such a section",
+                        "write one of theirs, as section.table1.set.study.seeds=50");
+  }
+  return out;
+}
 }  // namespace
 
 Reproduction::Reproduction(const std::string& name, const std::string& configFolder,
@@ -28,11 +59,10 @@ Reproduction::Reproduction(const std::string& name, const std::string& configFol
     : name_(name), isQuick_(options.isQuick)
 {
   const PaperList list = PaperList::find(name, configFolder);
-  for (const std::string& file : list.files)
-  {
-    PaperSpec::Options each{options.isQuick, options.set, options.firstSeed};
-    papers_.push_back(PaperSpec::load(file, each));
-  }
+  const auto sets = setsOf(list.files, options.set);
+  for (std::size_t i = 0; i < list.files.size(); ++i)
+    papers_.push_back(
+        PaperSpec::load(list.files[i], {options.isQuick, sets[i], options.firstSeed}));
   title_ = list.title.empty() ? papers_.front().title : list.title;
   for (const PaperSpec& paper : papers_) layOut(paper, list.title.empty() ? "" : paper.name + "/");
 }
