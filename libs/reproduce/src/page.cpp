@@ -78,6 +78,24 @@ void addReading(HtmlPage& page)
           paragraph("Published figures stand in italics among the rows.")));
 }
 
+/// Links to all sections.
+void addContents(HtmlPage& page, const Reproduction& all)
+{
+  const auto link = [](const std::string& id, const std::string& text) {
+    return "<a href=\"#" + results::escapedHtml(id) + "\">" + results::escapedHtml(text) + "</a>";
+  };
+  std::string list;
+  for (const PaperSpec& paper : all.papers())
+  {
+    std::string sections;
+    for (const Section& s : paper.sections)
+      sections += "<li>" + link(paper.name + "." + s.name, s.title) + "</li>\n";
+    list += "<li>" + link(paper.name, paper.title) + "\n<ul>\n" + sections + "</ul></li>\n";
+  }
+  page.markup(folded("Contents", "<nav><ul>\n" + list + "<li>" + link("cost", "What it took") +
+                                     "</li>\n</ul></nav>\n"));
+}
+
 void addPaper(HtmlPage& page, const Reproduction& all, std::size_t p)
 {
   const PaperSpec& paper = all.papers()[p];
@@ -105,6 +123,7 @@ std::string pageOf(const Reproduction& all, std::string& missingPlots)
     page.heading("Claims and verdicts", "verdicts");
     page.markup(summary(rows, all.papers().size() > 1));
   }
+  addContents(page, all);
   addReading(page);
   for (std::size_t p = 0; p < all.papers().size(); ++p) addPaper(page, all, p);
   addCost(page, all);

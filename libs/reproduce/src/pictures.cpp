@@ -1,6 +1,5 @@
 #include "pictures.h"
 
-#include <slamot/core/Error.h>
 #include <slamot/results/Figures.h>
 #include <slamot/results/Gnuplot.h>
 #include <slamot/results/TextFile.h>
@@ -181,7 +180,7 @@ Drawn drawn(const Picture& picture, const study::Plan& plan, const std::string& 
     if (out.missing.empty()) keep(stem, out);
     return out;
   }
-  catch (const core::Error& e)
+  catch (const std::exception& e)
   {
     return {{}, e.what()};
   }

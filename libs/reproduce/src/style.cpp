@@ -39,7 +39,7 @@ white-space:nowrap;color:#fff;background:var(--none)}
 .published td{font-style:italic;background:var(--shade)}
 details{margin:1rem 0}
 summary{cursor:pointer;color:var(--ink-blue)}
-nav ol{margin:.5rem 0;padding-left:1.2rem}
+nav ul{margin:.2rem 0;padding-left:1.2rem}
 .again{font-size:.93rem;color:var(--faint);margin:1.2rem 0 .3rem}
 @media (max-width:44rem){
 .verdicts li{grid-template-columns:1fr}
@@ -51,7 +51,9 @@ figure{overflow-x:auto}figure svg{min-width:38rem}.row figure svg,.maps figure s
 .lead1 td:nth-child(-n+1),.lead2 td:nth-child(-n+2),.lead3 td:nth-child(-n+3),.lead4 td:nth-child(-n+4){white-space:normal;min-width:4rem}
 .study tr td{padding-right:.3rem}}
 @media print{.badge{print-color-adjust:exact;-webkit-print-color-adjust:exact}.claim,.verdicts li{break-inside:avoid}
-.claim{background:none}.wide{overflow:visible}table{font-size:8pt}td,th{white-space:normal!important}}
+.claim{background:none}.wide{overflow:visible}table{font-size:8pt;break-inside:auto}tr{break-inside:avoid}
+table .faint{font-size:7pt!important}td,th{white-space:normal!important}h2,h3,h3+p{break-after:avoid}
+.study td{padding:.15rem .4rem}}
 )";
 }  // namespace
 
