@@ -1,3 +1,4 @@
+#include <slamot/core/Error.h>
 #include <slamot/filters/registerAll.h>
 #include <slamot/study/Metrics.h>
 
@@ -180,5 +181,38 @@ TEST(Tables, OnlyTheMethodsThatATableNamesAreInIt)
   const TableText table = tableText(plan, collect(plan, {}), plan.spec.tables[0]);
   ASSERT_EQ(table.rows.size(), 3u);
   for (std::size_t i : {0u, 1u}) EXPECT_EQ(table.rows[i].fields[1], "Odometry");
+}
+
+TEST(Plots, ShowOnlyTheMethodsAndCellsThatTheyName)
+{
+  filters::registerAll();
+  std::string text = TinyStudy::kStudy;
+  const std::string axis = "[vary.landmarks]\n";
+  text.insert(text.find(axis),
+              "[vary.seen]\nlabel = range\nkeys = landmark_sensor.range_max_m\n"
+              "values = 5, 8\n");
+  const TinyStudy study(text);
+  const std::vector<std::string> set = {"study.seeds=1", "study.vary=landmarks, seen"};
+  const auto curvesOf = [&](const std::vector<std::string>& more)
+  {
+    auto all = set;
+    all.insert(all.end(), more.begin(), more.end());
+    const Plan plan = study.plan(all);
+    execute(plan, study.out("out"), {});
+    std::vector<std::string> titles;
+    const auto figure = figureOf(plan, collect(plan, {study.out("out")}), plan.spec.plots[0]);
+    for (const auto& s : figure.panels[0].series) titles.push_back(s.title);
+    return titles;
+  };
+  using Titles = std::vector<std::string>;
+  EXPECT_EQ(curvesOf({}),
+            (Titles{"joint, range 5", "joint, range 8", "Odometry, range 5", "Odometry, range 8"}));
+  EXPECT_EQ(curvesOf({"plot.errors.seen=8"}), (Titles{"joint", "Odometry"}));
+  EXPECT_EQ(curvesOf({"plot.errors.seen=8", "plot.errors.methods=joint"}), Titles{"joint"});
+  auto wrong = set;
+  wrong.emplace_back("plot.errors.seen=9");
+  EXPECT_THROW((void)study.spec(wrong), core::Error);
+  wrong.back() = "plot.errors.methods=nobody";
+  EXPECT_THROW((void)study.spec(wrong), core::Error);
 }
 }  // namespace slamot::study::test

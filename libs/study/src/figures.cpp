@@ -2,6 +2,7 @@
 
 #include <slamot/study/Metrics.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <map>
@@ -17,6 +18,15 @@ results::Ink inkOfCurve(std::size_t n)
   constexpr std::array kInks = {Ink::kVermillion, Ink::kBlue,   Ink::kOrange, Ink::kSky,
                                 Ink::kGreen,      Ink::kPurple, Ink::kText,   Ink::kMuted};
   return kInks[n % kInks.size()];
+}
+
+bool isShown(const Plan& plan, const PlotSpec& plot, std::size_t cell, std::size_t method)
+{
+  for (const auto& [axis, value] : plot.fixed)
+    if (plan.cells[cell].values[axis] != value) return false;
+  const auto& shown = plot.methods;
+  return shown.empty() ||
+         std::find(shown.begin(), shown.end(), plan.spec.methods[method].name) != shown.end();
 }
 
 void addPoint(results::Series& series, double x, const math::MeanInterval& s)
@@ -41,9 +51,10 @@ std::string curveTitle(const Plan& plan, const PlotSpec& plot, std::size_t cell,
 {
   std::string out = plan.spec.methods[method].label;
   const auto labels = plan.cellLabels(), values = plan.cellValues(plan.cells[cell]);
-  const std::size_t x = labels.size() - plan.spec.axes.size() + plot.axis;
+  const std::size_t logs = labels.size() - plan.spec.axes.size(), x = logs + plot.axis;
+  const auto isFixed = [&](std::size_t i) { return i >= logs && plot.fixed.count(i - logs) > 0; };
   for (std::size_t i = 0; i < labels.size(); ++i)
-    if (i != x) out += ", " + labels[i] + " " + values[i];
+    if (i != x && !isFixed(i)) out += ", " + labels[i] + " " + values[i];
   return out;
 }
 
@@ -53,7 +64,8 @@ std::map<std::string, results::Ink> inksOf(const Plan& plan, const PlotSpec& plo
   std::map<std::string, results::Ink> out;
   for (std::size_t m = 0; m < plan.spec.methods.size(); ++m)
     for (std::size_t c = 0; c < plan.cells.size(); ++c)
-      out.emplace(curveTitle(plan, plot, c, m), inkOfCurve(out.size()));
+      if (isShown(plan, plot, c, m))
+        out.emplace(curveTitle(plan, plot, c, m), inkOfCurve(out.size()));
   return out;
 }
 
@@ -67,7 +79,7 @@ std::vector<results::Series> curvesOf(const Plan& plan, const Outcome& outcome,
     for (std::size_t c = 0; c < plan.cells.size(); ++c)
     {
       const auto s = outcome.summary(plan, plan.groupOf[c][m], metric);
-      if (s.count == 0) continue;
+      if (s.count == 0 || !isShown(plan, plot, c, m)) continue;
       const std::string title = curveTitle(plan, plot, c, m);
       const auto [it, isNew] = places.emplace(title, curves.size());
       if (isNew)
@@ -85,7 +97,7 @@ results::Plot panelOverAxis(const Plan& plan, const Outcome& outcome, const Plot
   results::Plot panel;
   panel.xLabel = plan.spec.axes[plot.axis].label;
   panel.yLabel = metrics()[*metricByName(name)].label;
-  panel.logX = plot.logX;
+  panel.logX = plot.logX, panel.logY = plot.logY;
   panel.series = curvesOf(plan, outcome, plot, *metricByName(name));
   return panel;
 }
@@ -97,7 +109,7 @@ results::Figure figureOf(const Plan& plan, const Outcome& outcome, const PlotSpe
   std::set<std::string> named;  // a curve is in the legend of the first panel that has it
   for (const std::string& name : plot.metrics)
   {
-    results::Plot panel = plot.overTime ? panelOverTime(plan, outcome, name)
+    results::Plot panel = plot.overTime ? panelOverTime(plan, outcome, plot, name)
                                         : panelOverAxis(plan, outcome, plot, name);
     if (figure.panels.empty()) panel.title = plot.title;
     for (results::Series& curve : panel.series)

@@ -65,10 +65,12 @@ TimeCurve timeCurve(const Plan& plan, const Outcome& outcome, std::size_t group,
 
 }  // namespace
 
-results::Plot panelOverTime(const Plan& plan, const Outcome& outcome, const std::string& name)
+results::Plot panelOverTime(const Plan& plan, const Outcome& outcome, const PlotSpec& plot,
+                            const std::string& name)
 {
   results::Plot panel;
   panel.xLabel = "time since start [s]";
+  panel.logY = plot.logY;
   panel.yLabel = curveLabel(name);
   std::set<std::size_t> drawn;
   std::vector<results::Series> lines;
@@ -76,7 +78,7 @@ results::Plot panelOverTime(const Plan& plan, const Outcome& outcome, const std:
   for (std::size_t m = 0; m < plan.spec.methods.size(); ++m)
     for (std::size_t c = 0; c < plan.cells.size(); ++c)
     {
-      if (!drawn.insert(plan.groupOf[c][m]).second) continue;
+      if (!isShown(plan, plot, c, m) || !drawn.insert(plan.groupOf[c][m]).second) continue;
       auto curve = timeCurve(plan, outcome, plan.groupOf[c][m], name, inkOfCurve(curves++));
       if (curve.line.x.empty()) continue;
       curve.line.title = titleOfCurve(plan, c, m);

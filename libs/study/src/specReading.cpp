@@ -146,12 +146,12 @@ Axis readAxis(core::Config& study, const std::string& name, const StudySpec& spe
 namespace
 {
 /// Of the methods that there are, whether the study runs them or not.
-std::vector<std::string> readTableMethods(const core::Config& study, core::Params& table)
+std::vector<std::string> readShownMethods(const core::Config& study, core::Params& p)
 {
-  auto names = table.list("methods");
+  auto names = p.list("methods");
   for (const std::string& name : names)
     if (!study.has("method." + name))
-      table.fail("methods", "there is no [method." + name + "]", "name those of this study");
+      p.fail("methods", "there is no [method." + name + "]", "name those of this study");
   return names;
 }
 }  // namespace
@@ -165,7 +165,7 @@ std::vector<TableSpec> readTables(core::Config& study, core::Params& p, const St
     if (!study.has("table." + name)) p.fail("tables", "there is no [table." + name + "]", "add it");
     core::Params t(study, "table." + name);
     TableSpec table{name, t.text("title", ""), readMetrics(t, "columns"), "", {}};
-    if (t.has("methods")) table.methods = readTableMethods(study, t);
+    if (t.has("methods")) table.methods = readShownMethods(study, t);
     if (t.flag("ratios", false))
     {
       if (spec.reference.empty() && !t.has("reference"))
@@ -191,6 +191,21 @@ std::vector<std::string> readCurves(core::Params& p)
              "known: robot_position_m, robot_heading_rad, target_position_m, target_heading_rad, "
              "and of one robot of a team robot<number>_position_m, robot<number>_heading_rad");
   return names;
+}
+
+/// Keys that are axes, of the cells that a plot is to show.
+void readFixed(core::Params& p, const std::vector<Axis>& axes, const std::string& x, PlotSpec& plot)
+{
+  for (std::size_t a = 0; a < axes.size(); ++a)
+  {
+    const Axis& axis = axes[a];
+    if (axis.name == x || !p.has(axis.name)) continue;
+    const std::string value = p.text(axis.name);
+    const auto it = std::find(axis.values.begin(), axis.values.end(), value);
+    if (it == axis.values.end())
+      p.fail(axis.name, "'" + value + "' is none of its values", "write one as tables show it");
+    plot.fixed[a] = static_cast<std::size_t>(it - axis.values.begin());
+  }
 }
 
 void readPlotOverTime(core::Params& p, const StudySpec& spec, PlotSpec& plot)
@@ -229,6 +244,9 @@ std::vector<PlotSpec> readPlots(core::Config& study, const StudySpec& spec)
     if (spec.axes.empty() && !p.has("x"))
       p.fail("x", "nothing is varied", "remove the plot, or set [study] vary, or x to time");
     const std::string x = p.text("x", spec.axes.empty() ? "" : spec.axes.front().name);
+    readFixed(p, spec.axes, x, plot);
+    plot.logY = p.flag("log_y", false);
+    if (p.has("methods")) plot.methods = readShownMethods(study, p);
     if (x == "time" && !placeOf(spec.axes, x))
       readPlotOverTime(p, spec, plot);
     else

@@ -56,7 +56,10 @@ struct PlotSpec
   bool overTime = false;             ///< x = time: see ErrorCurves
   std::size_t axis = 0;              ///< else: place in StudySpec::axes
   std::vector<std::string> metrics;  ///< or names of curves
-  bool logX = false;
+  /// Only cells with these values: places of axes and of values in them.
+  std::map<std::size_t, std::size_t> fixed;
+  std::vector<std::string> methods;  ///< only these; empty: all
+  bool logX = false, logY = false;
 };
 
 /// Figures that others published, printed beside: section [published.<name>].
