@@ -1,93 +1,20 @@
 #include "pictures.h"
 
-#include <slamot/results/Figures.h>
 #include <slamot/results/Gnuplot.h>
 #include <slamot/results/TextFile.h>
 #include <slamot/study/Trial.h>
-#include <slamot/team/teamReport.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "runFigures.h"
 
 namespace slamot::reproduce
 {
 namespace
 {
 namespace fs = std::filesystem;
-using results::Figure;
-
-constexpr int kMapWidth = 680;  // [px]: as high as wide, a map would else fill a page
-
-struct Titled
-{
-  std::string title;
-  Figure figure;
-};
-
-/// Where the scans lie by the estimate, and by odometry.
-std::vector<Titled> scanFigures(const results::RunView& run)
-{
-  std::vector<Titled> out;
-  if (auto f = results::scanFigure(run, eval::PosesOf::kFilter))
-    out.push_back({"by the estimated path", *f});
-  if (auto f = results::scanFigure(run, eval::PosesOf::kOdometry))
-    out.push_back({"by odometry alone", *f});
-  return out;
-}
-
-std::optional<Figure> figureOf(Picture::Kind kind, const results::RunView& run)
-{
-  switch (kind)
-  {
-    case Picture::Kind::kMap:
-      return results::mapFigure(run);
-    case Picture::Kind::kRobotErrors:
-      return results::robotErrorFigure(run);
-    case Picture::Kind::kNees:
-      return results::neesFigure(run);
-    case Picture::Kind::kTargetErrors:
-    case Picture::Kind::kScans:
-      break;
-  }
-  const auto groups = results::targetGroups(run.record, run.evaluation);
-  if (groups.empty()) return std::nullopt;
-  return results::targetErrorFigure(run, groups.front(), results::inkOf(0));
-}
-
-std::optional<Figure> figureOf(Picture::Kind kind, const team::TeamView& team)
-{
-  switch (kind)
-  {
-    case Picture::Kind::kMap:
-      return team::teamMapFigure(team);
-    case Picture::Kind::kRobotErrors:
-      return team::robotErrorsFigure(team);
-    case Picture::Kind::kTargetErrors:
-      return team::targetErrorsFigure(team);
-    case Picture::Kind::kNees:
-      return team::teamNeesFigure(team);
-    case Picture::Kind::kScans:
-      break;
-  }
-  return std::nullopt;
-}
-
-std::vector<Titled> figuresOf(Picture::Kind kind, const study::Trial& trial,
-                              const study::FinishedTrial& done)
-{
-  std::vector<team::RobotResult> robots;
-  for (std::size_t r = 0; r < done.records.size(); ++r)
-    robots.push_back(
-        {"robot " + std::to_string(r), {done.records[r], *done.truths[r], done.evaluations[r]}});
-  if (!trial.team && kind == Picture::Kind::kScans) return scanFigures(robots[0].view);
-  const auto figure = trial.team ? figureOf(kind, team::viewOf(*trial.team, robots))
-                                 : figureOf(kind, robots[0].view);
-  if (!figure) return {};
-  Titled out{"", *figure};
-  if (kind == Picture::Kind::kMap) out.figure.width = kMapWidth;
-  return {out};
-}
 
 /// The place of the first cell with the picture's values; none if a quick study left them out.
 std::optional<std::size_t> cellOf(const Picture& picture, const study::Plan& plan)
@@ -157,7 +84,7 @@ Drawn made(const Picture& picture, const study::Plan& plan, std::size_t cell, st
       study::openTrial(plan.spec, plan.cells[cell], plan.spec.methods[method], picture.seed);
   const auto done = study::finish(trial, picture.kind == Picture::Kind::kScans);
   Drawn out;
-  for (const Titled& t : figuresOf(picture.kind, trial, done))
+  for (const TitledFigure& t : runFigures(picture.kind, trial, done))
     out.titlesAndImages.emplace_back(t.title,
                                      results::drawFigure(t.figure, results::PictureFormat::kSvg));
   if (out.titlesAndImages.empty()) out.missing = "its run has nothing of the kind";
