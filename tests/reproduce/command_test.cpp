@@ -134,4 +134,22 @@ TEST(ReproduceCommand, ErrorsAreOneLineAndHaveTheirStatus)
   EXPECT_EQ(slamot(paper, {"--merge", paper.file("nowhere")}), 4);
   EXPECT_FALSE(fs::exists(paper.file("x")));
 }
+
+TEST(ReproduceCommand, MakesThePageWithoutGnuplotAndSaysSo)
+{
+  const TinyPaper paper;
+  const std::string path = ::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  const int status = slamot(paper, {"-q", "-o", paper.file("out")});
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(paper.read("stderr").rfind("slamot: reproduction.html: made without plots: gnuplot", 0),
+            0u);
+  const std::string page = pageIn(paper, "out");
+  EXPECT_NE(page.find("This plot is missing: gnuplot"), std::string::npos);
+  EXPECT_NE(page.find("This picture is missing: gnuplot"), std::string::npos);
+  // With it, the pictures are made: nothing was kept in their place.
+  EXPECT_EQ(slamot(paper, {"-q", "-o", paper.file("out")}), 0);
+  EXPECT_EQ(pageIn(paper, "out").find(" is missing"), std::string::npos);
+}
 }  // namespace slamot::reproduce::test
