@@ -56,6 +56,34 @@ TEST(EvaluateTargets, TakesIdentitiesAtTheirWord)
   EXPECT_NEAR(*e.targets[0].trackedFraction, 10.0 / kRows, 1e-12);
 }
 
+TEST(EvaluateTargets, TakesVelocitiesAgainstThePathWhereTruthHasNone)
+{
+  TargetRun run;
+  run.record.targets = {run.track(0, true, 0, 0, kRows, 0.0)};
+  for (TargetRow& row : run.record.targets[0].rows) row.velocity = {0.3, 0.5};
+  const auto rmse = evaluate(run.record, run.truth, {}).trueTargets[0].velocityRmse;
+  ASSERT_TRUE(rmse);
+  EXPECT_NEAR((*rmse)[0], 0.3, 1e-9);
+  EXPECT_NEAR((*rmse)[1], 0.4, 1e-9);  // the target moves by 0.1 m/s along y
+}
+
+TEST(EvaluateTargets, TakesVelocitiesAgainstTheTrueOnesInTheTruthsAxes)
+{
+  TargetRun run;
+  run.record.targets = {run.track(0, true, 0, 0, kRows, 0.0)};
+  for (std::size_t i = 0; i < kRows; ++i)
+  {
+    run.record.targets[0].rows[i].velocity = {2, i == 0 ? 1.0 : 0.0};
+    run.truth.targets[0].poses[i].velocity = Vector2(0, 2);
+  }
+  // A map that lies a quarter turn off: what it calls x is the truth's y.
+  const auto rmse =
+      evaluate(run.record, run.truth, {}, {0, 0, math::kPi / 2}, {}).trueTargets[0].velocityRmse;
+  ASSERT_TRUE(rmse);
+  EXPECT_NEAR((*rmse)[0], std::sqrt(1.0 / kRows), 1e-9);
+  EXPECT_NEAR((*rmse)[1], 0, 1e-9);
+}
+
 TEST(EvaluateTargets, ListsAMissedTargetAsNeverTracked)
 {
   TargetRun run;

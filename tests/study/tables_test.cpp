@@ -111,6 +111,40 @@ TEST(Metrics, OfTargetsAreTheMeanOverTargets)
   EXPECT_DOUBLE_EQ(*measure(record, e)[*metricByName("target_mean_m")], 1.5);
 }
 
+TEST(Metrics, OfAxesAreRootMeanSquares)
+{
+  eval::Record record;
+  record.rows.resize(2);
+  eval::Evaluation e;
+  e.trueTargets.resize(1);
+  for (const double x : {3.0, 1.0})
+  {
+    e.trueTargets[0].steps.push_back(stepError(0, 0, 0));
+    e.trueTargets[0].steps.back().error = {x, -2, 0};
+  }
+  e.trueTargets[0].velocityRmse = Vector2(0.5, 0.25);
+  const auto values = measure(record, e);
+  EXPECT_DOUBLE_EQ(*values[*metricByName("target_x_rmse_m")], std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(*values[*metricByName("target_y_rmse_m")], 2);
+  EXPECT_DOUBLE_EQ(*values[*metricByName("target_vx_rmse_mps")], 0.5);
+  EXPECT_DOUBLE_EQ(*values[*metricByName("target_vy_rmse_mps")], 0.25);
+}
+
+TEST(Metrics, OfParticlesAreOverTheStepsThatWeighThem)
+{
+  eval::Record record;
+  record.steps.resize(5);
+  for (const std::size_t step : {1, 2, 3}) record.steps[step].ess = 10.0 * double(step);
+  record.steps[1].largestWeight = 0.995;
+  record.steps[2].largestWeight = 0.98;
+  record.steps[2].resampled = true;
+  const auto values = measure(record, {});
+  EXPECT_DOUBLE_EQ(*values[*metricByName("ess_mean")], 20);
+  EXPECT_DOUBLE_EQ(*values[*metricByName("degenerate_share")], 0.5);
+  EXPECT_DOUBLE_EQ(*values[*metricByName("resampled_share")], 1.0 / 3);
+  EXPECT_FALSE(measure(eval::Record{}, {})[*metricByName("ess_mean")]);
+}
+
 TEST(Tables, ShowMeansIntervalsRatiosAndPublishedFigures)
 {
   filters::registerAll();

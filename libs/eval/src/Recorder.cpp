@@ -30,6 +30,7 @@ StepRow diagnosticsOf(const core::Step& step, const core::Update& update)
   out.time = step.time;
   out.scan = lookedFor(step, update);
   out.ess = update.diagnostics.ess;
+  out.largestWeight = update.diagnostics.largestWeight;
   out.resampled = update.diagnostics.resampled;
   out.dropped = step.dropped;
   for (const core::Pairing& p : update.pairings)

@@ -34,7 +34,7 @@ class TargetErrors
       if (!truth) continue;
       errors_.push_back(poseError(t.row, t.pose, *truth, truthFromMap_));
       ages_.push_back(row.time - t.lastSeen);
-      if (const auto speed = trueSpeed(row.time)) speeds_.push_back(t.velocity.norm() - *speed);
+      addVelocity(t.velocity, row.time, *truth);
       tracked_.insert(t.row);
       if (!sighted(t)) continue;
       sightings_.push_back(errors_.back());
@@ -65,6 +65,8 @@ class TargetErrors
     for (std::size_t i = 0; i + 1 < options_.sinceSeenEdges.size(); ++i)
       out.sinceSeen.push_back(ageBin(options_.sinceSeenEdges[i], options_.sinceSeenEdges[i + 1]));
     out.speedRmse = rootMeanSquare(speeds_);
+    if (velocities_ > 0)
+      out.velocityRmse = (velocitySquares_ / static_cast<double>(velocities_)).cwiseSqrt();
     out.trackedFraction = trackedFraction(-1e300);
     if (const auto moved = firstMoved()) out.trackedSinceMoved = trackedFraction(*moved);
   }
@@ -84,13 +86,26 @@ class TargetErrors
     return {from, to, summarise(inBin)};
   }
 
-  [[nodiscard]] std::optional<double> trueSpeed(double time) const
+  void addVelocity(const Vector2& estimate, double time, const TimedPose& truth)
+  {
+    const auto ofPath = pathVelocity(time);
+    if (ofPath) speeds_.push_back(estimate.norm() - ofPath->norm());
+    const auto truly = truth.velocity ? truth.velocity : ofPath;
+    if (!truly) return;
+    const double c = std::cos(truthFromMap_.phi), s = std::sin(truthFromMap_.phi);
+    const Vector2 turned(c * estimate.x() - s * estimate.y(), s * estimate.x() + c * estimate.y());
+    velocitySquares_ += (turned - *truly).cwiseAbs2();
+    ++velocities_;
+  }
+
+  /// That of the true path, over 0.2 s around.
+  [[nodiscard]] std::optional<Vector2> pathVelocity(double time) const
   {
     constexpr double kHalf = 0.1;  // [s]
     const auto before = trajectory_.at(time - kHalf, options_.maxTruthGap);
     const auto after = trajectory_.at(time + kHalf, options_.maxTruthGap);
     if (!before || !after) return std::nullopt;
-    return std::hypot(after->pose.x - before->pose.x, after->pose.y - before->pose.y) / (2 * kHalf);
+    return Vector2(after->pose.x - before->pose.x, after->pose.y - before->pose.y) / (2 * kHalf);
   }
 
   [[nodiscard]] static std::optional<double> rootMeanSquare(const std::vector<double>& v)
@@ -131,8 +146,10 @@ class TargetErrors
   const EvaluationOptions& options_;
   Pose2D truthFromMap_;
   std::vector<StepError> errors_, sightings_, relative_;
-  std::vector<double> ages_;       // of errors_, since the last sighting [s]
-  std::vector<double> speeds_;     // errors [m/s]
+  std::vector<double> ages_;                   // of errors_, since the last sighting [s]
+  std::vector<double> speeds_;                 // errors [m/s]
+  Vector2 velocitySquares_ = Vector2::Zero();  // summed errors of so many velocities
+  int velocities_ = 0;
   std::set<std::size_t> tracked_;  // rows
 };
 

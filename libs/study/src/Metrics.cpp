@@ -11,7 +11,8 @@ const std::vector<MetricEntry>& entries()
   static const std::vector<MetricEntry> list = []
   {
     std::vector<MetricEntry> out;
-    for (auto* part : {robotMetrics, targetMetrics, mapMetrics, boundMetrics, messageMetrics})
+    for (auto* part :
+         {robotMetrics, targetMetrics, particleMetrics, mapMetrics, boundMetrics, messageMetrics})
       for (MetricEntry& e : part()) out.push_back(std::move(e));
     return out;
   }();

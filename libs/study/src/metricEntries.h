@@ -26,6 +26,7 @@ struct MetricEntry
 
 [[nodiscard]] std::vector<MetricEntry> robotMetrics();
 [[nodiscard]] std::vector<MetricEntry> targetMetrics();
+[[nodiscard]] std::vector<MetricEntry> particleMetrics();
 [[nodiscard]] std::vector<MetricEntry> mapMetrics();
 [[nodiscard]] std::vector<MetricEntry> boundMetrics();
 [[nodiscard]] std::vector<MetricEntry> messageMetrics();
@@ -37,6 +38,8 @@ struct MetricEntry
 /// Mean position error over the rows in [from, to), as shares of the run [m].
 [[nodiscard]] Value partMean(const Measured& run, const std::vector<eval::StepError>& steps,
                              double from, double to);
+/// Root mean square of one coordinate's error.
+[[nodiscard]] Value axisRmse(const std::vector<eval::StepError>& steps, Eigen::Index axis);
 /// Of the errors' sizes [rad].
 [[nodiscard]] Value headingMean(const std::vector<eval::StepError>& steps);
 /// A collapsed particle set claims certainty, and its NEES outweighs all others in a mean.

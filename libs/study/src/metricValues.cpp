@@ -51,6 +51,14 @@ Value partMean(const Measured& run, const std::vector<eval::StepError>& steps, d
       distance);
 }
 
+Value axisRmse(const std::vector<eval::StepError>& steps, Eigen::Index axis)
+{
+  const Value squared = meanOver(
+      steps, [](const eval::StepError&) { return true; },
+      [=](const eval::StepError& s) { return s.error[axis] * s.error[axis]; });
+  return squared ? Value(std::sqrt(*squared)) : std::nullopt;
+}
+
 Value headingMean(const std::vector<eval::StepError>& steps)
 {
   return meanOver(

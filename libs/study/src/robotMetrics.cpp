@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "metricEntries.h"
 
@@ -49,13 +48,7 @@ std::function<Value(const Measured&)> rigidRobot(Pick pick)
 /// RMSE of one coordinate.
 std::function<Value(const Measured&)> robotAxis(Eigen::Index axis)
 {
-  return [=](const Measured& r) -> Value
-  {
-    const Value squared = meanOver(
-        r.evaluation.robot.steps, [](const StepError&) { return true; },
-        [=](const StepError& s) { return s.error[axis] * s.error[axis]; });
-    return squared ? Value(std::sqrt(*squared)) : std::nullopt;
-  };
+  return [=](const Measured& r) { return axisRmse(r.evaluation.robot.steps, axis); };
 }
 
 Value robotHeadingDegrees(const Measured& r)

@@ -69,6 +69,21 @@ Value targetTrackedSinceMoved(const Measured& r)
   return overTargets(r, [](const auto& t) { return t.trackedSinceMoved; });
 }
 
+/// RMSE of one coordinate of the place.
+std::function<Value(const Measured&)> targetAxis(Eigen::Index axis)
+{
+  const auto rmse = [=](const eval::TargetEvaluation& t) { return axisRmse(t.steps, axis); };
+  return [=](const Measured& r) { return overTargets(r, rmse); };
+}
+
+/// The same of the velocity.
+std::function<Value(const Measured&)> targetVelocity(Eigen::Index axis)
+{
+  const auto rmse = [=](const eval::TargetEvaluation& t)
+  { return t.velocityRmse ? Value((*t.velocityRmse)[axis]) : std::nullopt; };
+  return [=](const Measured& r) { return overTargets(r, rmse); };
+}
+
 /// Tracks that stand for no true target.
 Value falseTracks(const Measured& r)
 {
@@ -137,6 +152,10 @@ std::vector<MetricEntry> targetMetrics()
       {{"target_tracked", "share of time the target is tracked", 3}, targetTracked},
       {{"target_tracked_since_moved", "the same since it first moved", 3}, targetTrackedSinceMoved},
       {{"target_speed_rmse_mps", "target speed RMSE [m/s]", 3}, targetSpeed},
+      {{"target_x_rmse_m", "target x RMSE [m]", 4}, targetAxis(0)},
+      {{"target_y_rmse_m", "target y RMSE [m]", 4}, targetAxis(1)},
+      {{"target_vx_rmse_mps", "target vx RMSE [m/s]", 4}, targetVelocity(0)},
+      {{"target_vy_rmse_mps", "target vy RMSE [m/s]", 4}, targetVelocity(1)},
       {{"false_tracks", "tracks of no true target", 1}, falseTracks},
       {{"targets_tracked_mean", "targets tracked, mean", 2}, targetSet(kTargetSet, &S::estimated)},
       {{"targets_there_mean", "targets there, mean", 2}, targetSet(kTargetSet, &S::truly)},

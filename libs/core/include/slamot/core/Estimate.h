@@ -61,8 +61,9 @@ struct Pairing
 
 struct Diagnostics
 {
-  std::optional<double> ess;  ///< effective sample size before resampling [particles]
-  int particles = 0;          ///< 0: not a particle filter
+  std::optional<double> ess;            ///< effective sample size before resampling [particles]
+  std::optional<double> largestWeight;  ///< of one particle before resampling, of a sum of 1
+  int particles = 0;                    ///< 0: not a particle filter
   bool resampled = false;
   /// Sightings so near that polar coordinates would not do, taken in the frame of their ray.
   int close = 0;

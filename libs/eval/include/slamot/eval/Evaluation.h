@@ -62,7 +62,10 @@ struct TargetEvaluation
   /// In the observer's frame, at steps with a sighting: free of the robot's own error; no NEES.
   ErrorSummary relativeAtSightings;
   std::vector<SinceSeen> sinceSeen;
-  std::optional<double> speedRmse;        ///< [m/s], against the true path over 0.2 s around
+  std::optional<double> speedRmse;  ///< [m/s], against the true path over 0.2 s around
+  /// Of each component, in the truth's axes [m/s]: against the true velocity, where truth tells it,
+  /// else as the speed.
+  std::optional<Vector2> velocityRmse;
   std::optional<double> trackedFraction;  ///< of the rows with truth, those that have an estimate
   /// The same from when it has first moved, by 0.05 m: until then nothing but a known start tells
   /// it from what stands.

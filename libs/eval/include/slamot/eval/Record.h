@@ -51,8 +51,9 @@ struct PairingRow
 struct StepRow
 {
   double time = 0;
-  bool scan = false;          ///< whether landmarks or blobs were looked for
-  std::optional<double> ess;  ///< effective sample size before resampling [particles]
+  bool scan = false;                    ///< whether landmarks or blobs were looked for
+  std::optional<double> ess;            ///< effective sample size before resampling [particles]
+  std::optional<double> largestWeight;  ///< of one particle before that; not kept in files
   bool resampled = false;
   int known = 0, created = 0, rejected = 0;  ///< sightings and blobs by outcome
   int dropped = 0;                           ///< left out by the source

@@ -13,6 +13,7 @@ struct TimedPose
   double time = 0;
   Pose2D pose;
   bool headingKnown = true;
+  std::optional<Vector2> velocity = {};  ///< [m/s]; none: the path alone tells it
 };
 
 /// Poses in rising order of time.
