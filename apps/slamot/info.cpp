@@ -30,9 +30,11 @@ void printObject(const std::string& name, const core::ObjectStart& start)
               number("%.3f", start.value[F::kX]).c_str(),
               number("%.3f", start.value[F::kY]).c_str(),
               number("%.3f", start.value[F::kTheta]).c_str());
+  const auto std = [&](F::Field f)
+  { return number("%.3f", start.value[f] ? std::optional(start.getStd(f)) : std::nullopt); };
   if (pose.cov.trace() > 0)
-    std::printf(", known to %.3f m, %.3f m, %.3f rad", start.getStd(F::kX), start.getStd(F::kY),
-                start.getStd(F::kTheta));
+    std::printf(", known to %s m, %s m, %s rad", std(F::kX).c_str(), std(F::kY).c_str(),
+                std(F::kTheta).c_str());
   std::printf("\n");
 }
 

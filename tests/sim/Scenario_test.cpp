@@ -95,6 +95,23 @@ TEST(Scenario, WhatIsWrongIsSaidWithItsKey)
          "is not above range_min_m");
   expect({"landmark_sensor.bearing_max_deg=-180"}, "bearing_max_deg: is not above bearing_min_deg");
   expect({"landmark_sensor.range_std_m=0"}, "[landmark_sensor] range_std_m: 0 is out of range");
+  expect({"target_sensor.glint_probability=1.1"},
+         "[target_sensor] glint_probability: 1.1 is out of range");
+  expect({"target_sensor.glint_law=cauchy"},
+         "[target_sensor] glint_law: 'cauchy' is not known; set it to student-t | gaussian");
+  expect({"target_sensor.position_std_m=1", "target_sensor.bearing_only=true"},
+         "[target_sensor] position_std_m: is of a place, which bearing_only leaves out");
+  expect({"target.motion=white_acceleration", "target.start=random"},
+         "[target] acceleration_std_mps2: missing");
+  expect(
+      {"target.motion=white_acceleration", "target.start=random", "target.acceleration_std_mps2=1"},
+      "[target] v_std_mps: is not for motion = white_acceleration; set it to 0");
+  expect({"target.motion=white_acceleration", "target.start=random",
+          "target.acceleration_std_mps2=1", "target.v_std_mps=0", "target.omega_std_radps=0"},
+         "[target] start_std_theta_rad: is not for motion = white_acceleration");
+  expect({"robot.motion=white_acceleration", "robot.acceleration_std_mps2=1", "robot.v_std_mps=0",
+          "robot.omega_std_radps=0"},
+         "[robot] motion: white_acceleration is for targets");
 }
 
 TEST(Scenario, WhatIsWrongWithATeamIsSaidWithItsSection)

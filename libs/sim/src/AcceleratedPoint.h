@@ -36,6 +36,7 @@ class AcceleratedPoint
   void move(double dt, math::RandomStream& random, Linear* linear = nullptr);
   /// Where it is, and the direction it moves in.
   [[nodiscard]] Pose2D pose() const { return {at_.x, at_.y, direction()}; }
+  [[nodiscard]] Vector2 velocity() const;
 
   /// The faster of the two springs' rates f [rad/s].
   [[nodiscard]] static double springRate(const Motion& motion);
@@ -67,7 +68,6 @@ class AcceleratedPoint
   void extend(Linear& linear, double h, const Eigen::Matrix<double, 2, kSize>& before,
               const Vector2& deviates) const;
   [[nodiscard]] double direction() const { return math::wrapToPi(start_.phi + turn_.value()); }
-  [[nodiscard]] Vector2 velocity() const;
   [[nodiscard]] Eigen::Matrix<double, 2, kSize> velocityJacobian() const;
 
   double speed0_;

@@ -18,7 +18,9 @@ Bodies::Bodies(const Scenario& scenario, std::uint64_t seed, bool linearise)
 Bodies::Body Bodies::makeBody(const Motion& motion, const Pose2D& pose, std::uint64_t key) const
 {
   Body out{pose, {motion, scenario_.area, stream(seed_, Purpose::kManoeuvre, 0, key)}};
-  if (motion.kind == Motion::Kind::kAccelerated) out.point.emplace(motion, pose);
+  if (motion.kind == Motion::Kind::kAccelerated) out.point = AcceleratedPoint(motion, pose);
+  if (motion.kind == Motion::Kind::kWhiteAcceleration)
+    out.point = WhiteAccelerationPoint(motion, pose);
   return out;
 }
 
@@ -81,14 +83,20 @@ void Bodies::moveTarget(Body& body, const Motion& m, std::uint64_t key) const
 {
   if (!body.point) return drive(body, body.driver.next(body.pose, elapsed()), m, key);
   auto random = stream(seed_, Purpose::kMotion, static_cast<std::uint64_t>(step_), key);
-  body.linear = {};
-  body.point->move(scenario_.dt, random, linearise_ ? &body.linear : nullptr);
-  body.pose = body.point->pose();
+  std::visit(
+      [&](auto& point)
+      {
+        typename std::decay_t<decltype(point)>::Linear linear;
+        point.move(scenario_.dt, random, linearise_ ? &linear : nullptr);
+        if (linearise_) body.linear = {linear.F, linear.Q, linear.w};
+        body.pose = point.pose();
+      },
+      *body.point);
 }
 
 Transition Bodies::transition(const Body& body)
 {
-  if (body.point) return {body.linear.F, body.linear.Q, body.linear.w};
+  if (body.point) return body.linear;
   Matrix3 F = Matrix3::Identity();
   F(0, 2) = -(body.pose.y - body.before.y);
   F(1, 2) = body.pose.x - body.before.x;
@@ -109,10 +117,36 @@ Transition Bodies::targetTransition(int id) const
   return transition(targets_.at(id));
 }
 
-const AcceleratedPoint* Bodies::point(int id) const
+std::optional<Vector2> Bodies::targetVelocity(int id) const
 {
   const auto& point = targets_.at(id).point;
-  return point ? &*point : nullptr;
+  if (!point) return std::nullopt;
+  return std::visit([](const auto& p) { return p.velocity(); }, *point);
+}
+
+std::optional<Eigen::VectorXd> Bodies::pointStartStd(int id, const StartKnowledge& told) const
+{
+  const auto& point = targets_.at(id).point;
+  if (!point) return std::nullopt;
+  return std::visit([&](const auto& p) -> Eigen::VectorXd { return p.startStd(told); }, *point);
+}
+
+bool Bodies::toldAsState(int id) const
+{
+  // Springs are not told in their own coordinates.
+  const auto& point = targets_.at(id).point;
+  return !point || (std::holds_alternative<WhiteAccelerationPoint>(*point) &&
+                    scenario_.targets.at(id).start.velocityStd);
+}
+
+Eigen::VectorXd Bodies::toldError(const core::ObjectStart& told, int id) const
+{
+  using S = core::ObjectStart;
+  const Body& body = targets_.at(id);
+  const double x = told.get(S::kX) - body.pose.x, y = told.get(S::kY) - body.pose.y;
+  if (!body.point) return Vector3(x, y, math::wrapToPi(told.get(S::kTheta) - body.pose.phi));
+  const Vector2 v = *targetVelocity(id);
+  return Eigen::Vector4d(x, y, told.get(S::kVx) - v.x(), told.get(S::kVy) - v.y());
 }
 
 std::vector<Gaussian<Pose2D>> Bodies::move()

@@ -2,9 +2,12 @@
 
 #include "AcceleratedPoint.h"
 #include "Driver.h"
+#include "WhiteAccelerationPoint.h"
 
 #include <slamot/core/Start.h>
 #include <slamot/math/gaussian.h>
+
+#include <variant>
 
 namespace slamot::sim
 {
@@ -34,26 +37,35 @@ class Bodies
   /// All robots but this one, by their index.
   [[nodiscard]] std::map<int, Point2D> matesOf(int robot) const;
 
-  /// The last step's, about the true motion, given the command.  A state is a pose, or that of an
-  /// AcceleratedPoint.
+  /// None of a target that is driven: its path tells it.
+  [[nodiscard]] std::optional<Vector2> targetVelocity(int id) const;
+
+  /// The last step's, about the true motion, given the command.  A state is a pose, or that of a
+  /// point.
   [[nodiscard]] Transition robotTransition(int index) const;
   [[nodiscard]] Transition targetTransition(int id) const;
-  /// Null of a target that is driven.
-  [[nodiscard]] const AcceleratedPoint* point(int id) const;
+  /// Deviations of a target's state at the start by what is told of it; none if it is driven.
+  [[nodiscard]] std::optional<Eigen::VectorXd> pointStartStd(int id,
+                                                             const StartKnowledge& told) const;
+  /// Whether a start is told in the coordinates of the target's state.
+  [[nodiscard]] bool toldAsState(int id) const;
+  /// What is told of such a target's start less the truth, before the first move.
+  [[nodiscard]] Eigen::VectorXd toldError(const core::ObjectStart& told, int id) const;
 
   /// What a robot's filter is told, without the time.
   [[nodiscard]] core::Starts starts(int robot) const;
 
  private:
+  using Point = std::variant<AcceleratedPoint, WhiteAccelerationPoint>;
   struct Body
   {
     Pose2D pose;
     Driver driver;
-    std::optional<AcceleratedPoint> point = {};  // moves by itself instead of being driven
+    std::optional<Point> point = {};  // moves by itself instead of being driven
     // The last step: from where, and what it did there.
     Pose2D before = {}, told = {};
     Gaussian<Pose2D> executed = {};
-    AcceleratedPoint::Linear linear = {};
+    Transition linear = {};  // a point's
   };
   [[nodiscard]] Body makeBody(const Motion& motion, const Pose2D& pose, std::uint64_t key) const;
   [[nodiscard]] Command robotCommand(std::size_t robot);

@@ -17,7 +17,7 @@ Eigen::VectorXd startStd(const StartKnowledge& knowledge)
 }
 
 /// What was told of a start, less the truth.
-Vector3 toldError(const core::ObjectStart& told, const Pose2D& truth)
+Vector3 robotError(const core::ObjectStart& told, const Pose2D& truth)
 {
   const Pose2D pose = told.pose().mean;
   return {pose.x - truth.x, pose.y - truth.y, math::wrapToPi(pose.phi - truth.phi)};
@@ -42,6 +42,10 @@ BoundRecursion::BoundRecursion(const Scenario& scenario, std::uint64_t seed, int
       landmarks_(placeLandmarks(scenario, seed)),
       bodies_(scenario, seed, true)
 {
+  for (const SensorSetup* s :
+       {&scenario.landmarkSensor, scenario.targetSensor ? &*scenario.targetSensor : nullptr,
+        scenario.mateSensor ? &*scenario.mateSensor : nullptr})
+    if (s && s->glint) scores_.emplace(s, LawScore(s->glint, s->bearingOnly ? 1 : 2));
   for (int r = 0; r < robots; ++r) addRobot(r);
   for (const auto& [id, setup] : scenario.targets) addTarget(id, setup);
   recordErrors();
@@ -54,7 +58,7 @@ void BoundRecursion::addRobot(int index)
   if (const StartKnowledge& start = scenario_.robots[std::size_t(index)].start; start.known)
   {
     std = startStd(start);
-    error = toldError(*bodies_.starts(index).robot, bodies_.robot(index));
+    error = robotError(*bodies_.starts(index).robot, bodies_.robot(index));
   }
   robots_.push_back({errors_.add(std.cwiseAbs2().asDiagonal().toDenseMatrix(), error), {}, {}});
 }
@@ -63,8 +67,7 @@ void BoundRecursion::addTarget(int id, const TargetSetup& setup)
 {
   StartKnowledge start = setup.start;
   start.known = start.known && setup.isPresent(0);
-  const AcceleratedPoint* point = bodies_.point(id);
-  Eigen::VectorXd std = point ? Eigen::VectorXd(point->startStd(start)) : startStd(start);
+  Eigen::VectorXd std = bodies_.pointStartStd(id, start).value_or(startStd(start));
   // Each robot is told with an error of its own.
   if (start.known) std /= std::sqrt(static_cast<double>(robots_.size()));
   const int at =
@@ -75,11 +78,11 @@ void BoundRecursion::addTarget(int id, const TargetSetup& setup)
 Eigen::VectorXd BoundRecursion::startErrors(int id, const StartKnowledge& start,
                                             const Eigen::VectorXd& std) const
 {
-  if (start.known && !bodies_.point(id))
+  if (start.known && bodies_.toldAsState(id))
   {
-    Vector3 sum = Vector3::Zero();
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(std.size());
     for (int r = 0; r < static_cast<int>(robots_.size()); ++r)
-      sum += toldError(bodies_.starts(r).targets.at(id), bodies_.presentTargets().at(id));
+      sum += bodies_.toldError(bodies_.starts(r).targets.at(id), id);
     return sum / static_cast<double>(robots_.size());
   }
   // Nothing is told, or of springs not in their own coordinates: as uncertain, by a draw of its

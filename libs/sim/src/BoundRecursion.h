@@ -4,6 +4,7 @@
 
 #include "Bodies.h"
 #include "JointErrors.h"
+#include "LawScore.h"
 #include "Sensor.h"
 
 #include <utility>
@@ -60,9 +61,15 @@ class BoundRecursion
   [[nodiscard]] std::vector<Seen> scanLandmarks(int robot, Rows& rows) const;
   void scanTargets(int robot, Rows& rows);
   void scanMates(int robot, Rows& rows) const;
+  /// A sighting's noise of (range, bearing) as the bound has it.
+  struct Noise
+  {
+    Vector2 variance, drawn;
+  };
+  [[nodiscard]] Noise noiseOf(int robot, const SensorSetup& sensor, const Seen& seen,
+                              const Point2D& point) const;
   [[nodiscard]] JointErrors::Row row(int robot, const SensorSetup& sensor, const Seen& seen,
                                      const Point2D& point, int at) const;
-  [[nodiscard]] Vector2 noiseOf(int robot, const Seen& seen, const Point2D& point) const;
   void addLandmark(int robot, const Seen& seen);
 
   const Scenario& scenario_;
@@ -72,6 +79,7 @@ class BoundRecursion
   JointErrors errors_;
   std::vector<Robot> robots_;
   std::map<int, Target> targets_;
-  std::map<int, int> landmarkAt_;  // first coordinates, of those seen
+  std::map<int, int> landmarkAt_;                  // first coordinates, of those seen
+  std::map<const SensorSetup*, LawScore> scores_;  // of the sensors that glint
 };
 }  // namespace slamot::sim

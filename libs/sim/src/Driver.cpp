@@ -35,7 +35,8 @@ Command Driver::next(const Pose2D& pose, double elapsed)
     case Motion::Kind::kManoeuvre:
       return manoeuvre(pose, elapsed);
     case Motion::Kind::kCommand:
-    case Motion::Kind::kAccelerated:  // is no body that is driven
+    case Motion::Kind::kAccelerated:  // are no bodies that are driven
+    case Motion::Kind::kWhiteAcceleration:
       break;
   }
   return {motion_.speed, motion_.turnRate};

@@ -9,12 +9,13 @@ namespace
 {
 Motion::Kind readKind(core::Params& p)
 {
-  const std::string kind = p.choice(
-      "motion", {"circle", "waypoints", "straight", "manoeuvre", "command", "accelerated"});
+  const std::string kind = p.choice("motion", {"circle", "waypoints", "straight", "manoeuvre",
+                                               "command", "accelerated", "white_acceleration"});
   if (kind == "circle") return Motion::Kind::kCircle;
   if (kind == "waypoints") return Motion::Kind::kWaypoints;
   if (kind == "straight") return Motion::Kind::kStraight;
   if (kind == "accelerated") return Motion::Kind::kAccelerated;
+  if (kind == "white_acceleration") return Motion::Kind::kWhiteAcceleration;
   return kind == "manoeuvre" ? Motion::Kind::kManoeuvre : Motion::Kind::kCommand;
 }
 
@@ -74,6 +75,9 @@ void readAcceleration(core::Params& p, Motion& m)
   m.cone = p.inRange("direction_cone_deg", 0.01, 89, unless(m.cone));
   if (used && m.speedBand >= m.speed)
     p.fail("speed_band_mps", "lets it stand still or turn back", "set it below speed_mps");
+  const bool isWhite = m.kind == Motion::Kind::kWhiteAcceleration;
+  m.accelerationStd =
+      p.nonNegative("acceleration_std_mps2", isWhite ? std::nullopt : std::optional(0.0));
 }
 
 // Read whether used or not, so that --set can change from one drive to the other.
@@ -91,15 +95,15 @@ void readDrive(core::Params& p, Motion& m)
 
 void readNoise(core::Params& p, Motion& m)
 {
-  // A point has no wheels: its jerk is all that is random.
-  const bool isPoint = m.kind == Motion::Kind::kAccelerated;
+  // A point has no wheels: its jerk or acceleration is all that is random.
+  const bool isPoint = m.isPoint();
   const auto otherwise = isPoint ? std::optional(0.0) : std::nullopt;
   m.vStd = p.nonNegative("v_std_mps", otherwise);
   const bool turns = m.drive == Motion::Drive::kTurnRate;
   m.omegaStd = p.nonNegative("omega_std_radps", turns ? otherwise : std::optional(0.0));
   if (isPoint && (m.vStd > 0 || m.omegaStd > 0))
-    p.fail(m.vStd > 0 ? "v_std_mps" : "omega_std_radps", "is not for motion = accelerated",
-           "set it to 0, and jerk_noise_mps3_per_sqrt_hz");
+    p.fail(m.vStd > 0 ? "v_std_mps" : "omega_std_radps", "is not for motion = " + p.text("motion"),
+           "set it to 0, and jerk_noise_mps3_per_sqrt_hz or acceleration_std_mps2");
 }
 }  // namespace
 

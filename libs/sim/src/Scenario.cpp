@@ -105,6 +105,9 @@ StartKnowledge readStartKnowledge(core::Params& p, const Motion& motion)
   out.accelerationStd = p.optionalNumber("start_std_acceleration_mps2", 0.0);
   if (out.accelerationStd && motion.kind != Motion::Kind::kAccelerated)
     p.fail("start_std_acceleration_mps2", "is for motion = accelerated", "remove it");
+  if (out.std[2] > 0 && motion.kind == Motion::Kind::kWhiteAcceleration)
+    p.fail("start_std_theta_rad", "is not for motion = white_acceleration, which has no heading",
+           "set start_std_velocity_mps");
   return out;
 }
 

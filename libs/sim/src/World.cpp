@@ -64,7 +64,7 @@ void World::Impl::recordPoses()
 {
   truth.robot.poses.push_back({time(), bodies.robot(robot), true});
   for (const auto& [id, pose] : bodies.presentTargets())
-    truth.targets[id].poses.push_back({time(), pose, true});
+    truth.targets[id].poses.push_back({time(), pose, true, bodies.targetVelocity(id)});
 }
 
 void World::Impl::scanLandmarks(core::Step& out)

@@ -79,24 +79,41 @@ void BoundRecursion::scanMates(int robot, Rows& rows) const
   }
 }
 
+// What was drawn is the sighting less what is true.  Of a law with tails the bound takes what it
+// tells: a noise as large as the Fisher information says, and for what was drawn the score.
+BoundRecursion::Noise BoundRecursion::noiseOf(int robot, const SensorSetup& sensor,
+                                              const Seen& seen, const Point2D& point) const
+{
+  const Pose2D& pose = bodies_.robot(robot);
+  const Vector2 truth = RangeBearing::predict(pose, point), z(seen.range, seen.bearing);
+  Noise out{{sensor.rangeStd * sensor.rangeStd, sensor.bearingStd * sensor.bearingStd},
+            RangeBearing::residual(z, truth)};
+  if (const double std = sensor.positionStd; std > 0)
+  {
+    const Point2D off = RangeBearing::invert(pose, z) - point;
+    out.variance = Vector2(std * std, std * std / (truth[0] * truth[0]));
+    out.drawn = RangeBearing::jacobians(pose, point).point * Vector2(off.x, off.y);
+  }
+  const auto score = scores_.find(&sensor);
+  if (score == scores_.end()) return out;
+  const Vector2 squares = out.drawn.cwiseAbs2().cwiseQuotient(out.variance);
+  const double q = sensor.bearingOnly ? squares[1] : squares.sum();
+  out.variance /= score->second.information();
+  out.drawn *= score->second.inverseFactor(q) / score->second.information();
+  return out;
+}
+
 // A sighting of a point whose place has the coordinates from `at` on.
 JointErrors::Row BoundRecursion::row(int robot, const SensorSetup& sensor, const Seen& seen,
                                      const Point2D& point, int at) const
 {
   const auto J = RangeBearing::jacobians(bodies_.robot(robot), point);
   const int first = sensor.bearingOnly ? 1 : 0, count = 2 - first;
-  const Vector2 variance(sensor.rangeStd * sensor.rangeStd, sensor.bearingStd * sensor.bearingStd);
+  const Noise noise = noiseOf(robot, sensor, seen, point);
   return {{{robots_[std::size_t(robot)].at, J.pose.middleRows(first, count)},
            {at, J.point.middleRows(first, count)}},
-          variance.segment(first, count),
-          noiseOf(robot, seen, point).segment(first, count)};
-}
-
-// What was drawn: the sighting less what is true.
-Vector2 BoundRecursion::noiseOf(int robot, const Seen& seen, const Point2D& point) const
-{
-  return RangeBearing::residual({seen.range, seen.bearing},
-                                RangeBearing::predict(bodies_.robot(robot), point));
+          noise.variance.segment(first, count),
+          noise.drawn.segment(first, count)};
 }
 
 // Of one seen first nothing else is known: its error e is what H_point e + H_pose e_pose = noise
@@ -107,9 +124,10 @@ void BoundRecursion::addLandmark(int robot, const Seen& seen)
   const Point2D& point = landmarks_.at(seen.object);
   const auto J = RangeBearing::jacobians(bodies_.robot(robot), point);
   const Matrix2 inverse = J.point.inverse();
-  const Matrix2 R = RangeBearing(sensor.rangeStd, sensor.bearingStd).noise();
+  const Noise noise = noiseOf(robot, sensor, seen, point);
+  const Matrix2 R = noise.variance.asDiagonal();
   landmarkAt_[seen.object] =
       errors_.addFrom({{robots_[std::size_t(robot)].at, -inverse * J.pose}},
-                      inverse * R * inverse.transpose(), inverse * noiseOf(robot, seen, point));
+                      inverse * R * inverse.transpose(), inverse * noise.drawn);
 }
 }  // namespace slamot::sim

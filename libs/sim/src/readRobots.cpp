@@ -56,8 +56,8 @@ RobotSetup readRobot(core::Config& config, const std::string& section, const Are
   RobotSetup r;
   r.section = section;
   r.motion = Motion::from(p, area);
-  if (r.motion.kind == Motion::Kind::kAccelerated)
-    p.fail("motion", "accelerated is for targets", "set it to one that wheels can drive");
+  if (r.motion.isPoint())
+    p.fail("motion", p.text("motion") + " is for targets", "set it to one that wheels can drive");
   r.start = readStartKnowledge(p, r.motion);
   r.look = Look::from(p, r.look);
   readFollowing(p, r, targets);

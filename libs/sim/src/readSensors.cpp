@@ -6,7 +6,8 @@ namespace
 {
 constexpr double kMostClutter = 500;  // what the Poisson draw is good for
 
-SensorSetup readSensor(core::Params& p)
+/// \param positions whether its errors are those of places.
+SensorSetup readSensor(core::Params& p, bool positions = false)
 {
   SensorSetup s;
   s.fov.rangeMin = p.nonNegative("range_min_m", 0.0);
@@ -17,11 +18,29 @@ SensorSetup readSensor(core::Params& p)
   s.fov.bearingMax = p.inRange("bearing_max_deg", -180, 180, math::kPi);
   if (s.fov.bearingMax <= s.fov.bearingMin)
     p.fail("bearing_max_deg", "is not above bearing_min_deg", "raise it");
-  s.rangeStd = p.positive("range_std_m");
-  s.bearingStd = p.positive("bearing_std_rad");
+  if (positions)
+    p.allowUnused({"range_std_m", "bearing_std_rad"});
+  else
+  {
+    s.rangeStd = p.positive("range_std_m");
+    s.bearingStd = p.positive("bearing_std_rad");
+  }
+  s.glint = models::NoiseLaw::from(p, "");
   s.detection = p.inRange("detection_probability", 0, 1, 1.0);
   s.clutter = p.inRange("clutter_per_scan", 0, kMostClutter, 0.0);
   s.identities = p.flag("identities", true);
+  return s;
+}
+/// What target and mate sensor share.
+SensorSetup readBlobSensor(core::Params& p, const std::string& clutterLabel)
+{
+  const double positionStd = p.nonNegative("position_std_m", 0.0);
+  SensorSetup s = readSensor(p, positionStd > 0);
+  s.positionStd = positionStd;
+  s.bearingOnly = p.flag("bearing_only", false);
+  if (s.bearingOnly && positionStd > 0)
+    p.fail("position_std_m", "is of a place, which bearing_only leaves out", "set it to 0");
+  s.clutterLabel = p.text("clutter_label", clutterLabel);
   return s;
 }
 }  // namespace
@@ -36,20 +55,15 @@ std::optional<SensorSetup> readTargetSensor(core::Config& config, bool isNeeded)
 {
   if (!isNeeded && !config.has("target_sensor")) return std::nullopt;
   core::Params p(config, "target_sensor");
-  SensorSetup s = readSensor(p);
-  s.bearingOnly = p.flag("bearing_only", false);
-  s.clutterLabel = p.text("clutter_label", "target");
-  return s;
+  return readBlobSensor(p, "target");
 }
 
 std::optional<SensorSetup> readMateSensor(core::Config& config)
 {
   if (!config.has("mate_sensor")) return std::nullopt;
   core::Params p(config, "mate_sensor");
-  SensorSetup s = readSensor(p);
-  s.bearingOnly = p.flag("bearing_only", false);
+  SensorSetup s = readBlobSensor(p, "robot");
   s.label = p.text("label", "robot");
-  s.clutterLabel = p.text("clutter_label", "robot");
   return s;
 }
 }  // namespace slamot::sim

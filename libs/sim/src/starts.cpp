@@ -90,6 +90,9 @@ core::ObjectStart knownStart(const StartKnowledge& knowledge, const Motion& moti
     out.std[i] = knowledge.std[i];
   }
   out.value[S::kTheta] = math::wrapToPi(*out.value[S::kTheta]);
+  // A point's direction is that of its velocity, which may turn anywhere in a step.
+  if (motion.kind == Motion::Kind::kWhiteAcceleration)
+    out.value[S::kTheta] = out.std[S::kTheta] = std::nullopt;
   const auto tell = [&](S::Field x, double trueX, S::Field y, double trueY, double std)
   {
     out.value[x] = trueX + std * random.normal();

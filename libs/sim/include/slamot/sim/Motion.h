@@ -26,12 +26,13 @@ struct Motion
 {
   enum class Kind
   {
-    kCircle,      ///< constant speed and turn rate, starting on the circle
-    kWaypoints,   ///< steers from point to point
-    kStraight,    ///< constant speed
-    kManoeuvre,   ///< constant speed; the turn rate changes its sign at random times
-    kCommand,     ///< constant speed and turn rate from wherever it starts
-    kAccelerated  ///< a point (targets only): nearly constant acceleration, never turning back
+    kCircle,       ///< constant speed and turn rate, starting on the circle
+    kWaypoints,    ///< steers from point to point
+    kStraight,     ///< constant speed
+    kManoeuvre,    ///< constant speed; the turn rate changes its sign at random times
+    kCommand,      ///< constant speed and turn rate from wherever it starts
+    kAccelerated,  ///< a point (targets only): nearly constant acceleration, never turning back
+    kWhiteAcceleration  ///< a point (targets only): acceleration drawn anew each step
   };
   /// What a body's second control does to it.
   enum class Drive
@@ -56,16 +57,17 @@ struct Motion
   bool clockwise = false;
   std::optional<double> phase;  ///< where on the circle it starts [rad]; absent: at random
   std::vector<Point2D> waypoints;
-  bool loop = true;      ///< from the last waypoint to the first, else stop there
-  double reached = 0.5;  ///< a waypoint is passed at this distance [m]
-  double turnGain = 4;   ///< turn rate by bearing to where it steers [1/s]
-  double turnMax = 3;    ///< and its limit [rad/s]
-  double switchMin = 1;  ///< time between changes of the manoeuvre's sign,
-  double switchMax = 3;  ///< uniform between these [s]
-  double border = 1;     ///< a manoeuvre turns back this far from the area's sides [m]
-  double jerkNoise = 0;  ///< of accelerated motion, white [m/s³ per square root of Hz]
-  double speedBand = 1;  ///< its speed stays this near to `speed` [m/s]
-  double cone = 0.7;     ///< its direction stays this near to that of the start [rad]
+  bool loop = true;            ///< from the last waypoint to the first, else stop there
+  double reached = 0.5;        ///< a waypoint is passed at this distance [m]
+  double turnGain = 4;         ///< turn rate by bearing to where it steers [1/s]
+  double turnMax = 3;          ///< and its limit [rad/s]
+  double switchMin = 1;        ///< time between changes of the manoeuvre's sign,
+  double switchMax = 3;        ///< uniform between these [s]
+  double border = 1;           ///< a manoeuvre turns back this far from the area's sides [m]
+  double jerkNoise = 0;        ///< of accelerated motion, white [m/s³ per square root of Hz]
+  double speedBand = 1;        ///< its speed stays this near to `speed` [m/s]
+  double cone = 0.7;           ///< its direction stays this near to that of the start [rad]
+  double accelerationStd = 0;  ///< of white acceleration, per axis of the map [m/s²]
   StartAt startAt = StartAt::kPath;
   Pose2D start;              ///< if given
   double startDistance = 4;  ///< from the target, if near it [m]
@@ -79,6 +81,11 @@ struct Motion
   /// Reads the keys from p.  \throws core::Error (kConfig).
   static Motion from(core::Params& p, const Area& area);
 
+  /// Whether it is a point that moves by itself, and no body that is driven.
+  [[nodiscard]] bool isPoint() const
+  {
+    return kind == Kind::kAccelerated || kind == Kind::kWhiteAcceleration;
+  }
   /// Whether it has a path in the plane: a circle, or waypoints.
   [[nodiscard]] bool hasPath() const;
   /// How far a point is from that path [m]; of waypoints, from the lines that join them.

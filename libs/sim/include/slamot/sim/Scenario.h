@@ -1,6 +1,7 @@
 #pragma once
 
 #include <slamot/core/Step.h>
+#include <slamot/models/NoiseLaw.h>
 #include <slamot/sim/Motion.h>
 #include <slamot/sim/RawSensors.h>
 
@@ -53,12 +54,17 @@ struct SensorSetup
 {
   core::FieldOfView fov;
   double rangeStd = 0.1, bearingStd = 0.008;  ///< [m, rad]
-  double detection = 1;                       ///< chance that an object in view is seen
-  double clutter = 0;                         ///< false sightings a scan, mean
-  bool identities = true;                     ///< whether it tells which one it saw
-  bool bearingOnly = false;                   ///< of blobs
-  std::string clutterLabel = "target";        ///< of false blobs
-  std::string label = "robot";                ///< of the mate sensor's true blobs
+  /// If above 0, instead of those: of a place's x and y [m], which is then told as range and
+  /// bearing.  Of blobs.
+  double positionStd = 0;
+  /// Now and then an error is larger than those tell; null: never.
+  std::shared_ptr<const models::NoiseLaw> glint = {};
+  double detection = 1;                 ///< chance that an object in view is seen
+  double clutter = 0;                   ///< false sightings a scan, mean
+  bool identities = true;               ///< whether it tells which one it saw
+  bool bearingOnly = false;             ///< of blobs
+  std::string clutterLabel = "target";  ///< of false blobs
+  std::string label = "robot";          ///< of the mate sensor's true blobs
 };
 
 /// Landmarks: where they are, or how they are placed at random.
