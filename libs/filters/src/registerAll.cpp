@@ -2,6 +2,7 @@
 #include <slamot/filters/DeadReckoning.h>
 #include <slamot/filters/EkfSlamot.h>
 #include <slamot/filters/RbpfSlamot.h>
+#include <slamot/filters/Trackers.h>
 #include <slamot/filters/registerAll.h>
 
 namespace slamot::filters
@@ -28,6 +29,8 @@ void registerAll()
     add<Independent>("independent");
     add<OdometryTarget>("odometry");
     add<TruePoseTarget>("true-pose-target");
+    add<ParticleTracker>("particle-tracker");
+    for (const char* tracker : {"kalman-tracker", "imm-tracker"}) add<KalmanTracker>(tracker);
     return true;
   }();
   (void)once;

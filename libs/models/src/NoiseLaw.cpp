@@ -43,10 +43,11 @@ NoiseLaw::NoiseLaw(const Settings& settings) : settings_(settings)
             [](const Component& a, const Component& b) { return a.factor < b.factor; });
 }
 
-std::shared_ptr<const NoiseLaw> NoiseLaw::from(core::Params& p, const std::string& prefix)
+std::shared_ptr<const NoiseLaw> NoiseLaw::from(core::Params& p, const std::string& prefix,
+                                               double otherwise)
 {
   Settings s{};
-  s.probability = p.inRange(prefix + "glint_probability", 0, 1, 0.0);
+  s.probability = p.inRange(prefix + "glint_probability", 0, 1, otherwise);
   const std::string law =
       p.choice(prefix + "glint_law", {"student-t", "gaussian", "laplace"}, "student-t");
   s.tail = law == "student-t"  ? Tail::kStudent

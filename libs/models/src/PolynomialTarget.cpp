@@ -12,9 +12,18 @@ template <int Order>
 typename PolynomialTarget<Order>::Params PolynomialTarget<Order>::Params::from(core::Params& p)
 {
   Params out{p.positive("target_velocity_std_mps"), 0, 0};
-  if constexpr (Order == 2) out.accelerationStd = p.positive("target_acceleration_std_mps2");
-  out.noise = p.nonNegative(Order == 1 ? "target_acceleration_noise_mps2_per_sqrt_hz"
-                                       : "target_jerk_noise_mps3_per_sqrt_hz");
+  if constexpr (Order == 2)
+  {
+    out.accelerationStd = p.positive("target_acceleration_std_mps2");
+    out.noise = p.nonNegative("target_jerk_noise_mps3_per_sqrt_hz");
+  }
+  else
+  {
+    const char* stepwise = "target_step_acceleration_std_mps2";
+    const auto otherwise = p.has(stepwise) ? std::optional(0.0) : std::nullopt;
+    out.noise = p.nonNegative("target_acceleration_noise_mps2_per_sqrt_hz", otherwise);
+    out.stepAccelerationStd = p.nonNegative(stepwise, 0.0);
+  }
   return out;
 }
 
@@ -66,6 +75,12 @@ TargetTransition<PolynomialTarget<Order>::kSize> PolynomialTarget<Order>::transi
             .diagonal()
             .setConstant(std::pow(dt, j - i) / factorial[j - i]);
     }
+  if constexpr (Order == 1)
+  {
+    Eigen::Matrix<double, kSize, 2> G;  // of the state by the step's acceleration
+    G << 0.5 * dt * dt * Matrix2::Identity(), dt * Matrix2::Identity();
+    out.Q += std::pow(params_.stepAccelerationStd, 2) * G * G.transpose();
+  }
   return out;
 }
 

@@ -42,8 +42,10 @@ class NoiseLaw
   /// \throws std::domain_error unless 0 <= probability <= 1, scale > 0 and freedom > 0.
   explicit NoiseLaw(const Settings& settings);
   /// From the keys `glint_probability`, `glint_law`, `glint_scale` and `glint_freedom` after a
-  /// prefix.  \return null where there is no glint.
-  static std::shared_ptr<const NoiseLaw> from(core::Params& p, const std::string& prefix);
+  /// prefix.  \param otherwise the probability where the configuration tells none.
+  /// \return null where there is no glint.
+  static std::shared_ptr<const NoiseLaw> from(core::Params& p, const std::string& prefix,
+                                              double otherwise = 0);
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   /// By rising factors; the weights' sum is 1.

@@ -8,7 +8,8 @@ namespace slamot::models
 {
 /// Constant velocity (Order 1) or constant acceleration (Order 2) but for white noise on the next
 /// derivative: state (x, y, vx, vy[, ax, ay]).  Bar-Shalom, Li, Kirubarajan, "Estimation with
-/// Applications to Tracking and Navigation", 2001, sections 6.2.2 and 6.2.3.
+/// Applications to Tracking and Navigation", 2001, sections 6.2.2 and 6.2.3; for an acceleration
+/// that is constant over a step, 6.3.2.
 template <int Order>
 class PolynomialTarget
 {
@@ -21,6 +22,9 @@ class PolynomialTarget
     double velocityStd;      ///< [m/s] per axis, of a target just seen first
     double accelerationStd;  ///< [m/s²] the same; of no account with Order 1
     double noise;            ///< [m/s² or m/s³ per square root of Hz] per axis
+    /// [m/s²] per axis: of an acceleration drawn anew each step of the filter and constant over it,
+    /// besides; of no account with Order 2.
+    double stepAccelerationStd = 0;
     static Params from(core::Params& p);
   };
   using State = TargetState<kSize>;
