@@ -161,6 +161,21 @@ TEST(Evaluate, LeavesSingularCovariancesOutOfNees)
   EXPECT_EQ(e.robot.all.neesSkipped, 1);
 }
 
+TEST(Evaluate, LeavesCollapsedCovariancesOutOfNees)
+{
+  PerfectRun run(3);
+  run.record.rows[0].robot.cov = 1e-290 * Matrix3::Identity();
+  run.record.rows[1].robot.cov = 1e-60 * Matrix3::Identity();
+  run.record.rows[0].robot.mean.x += 1e5;
+  run.record.rows[1].robot.mean.x += 1e5;
+  const Evaluation e = evaluate(run.record, run.truth, {});
+  EXPECT_FALSE(e.robot.steps[0].nees);
+  EXPECT_FALSE(e.robot.steps[0].neesPosition);
+  EXPECT_TRUE(e.robot.steps[1].nees);  // over-confident, and told
+  EXPECT_TRUE(std::isfinite(*e.robot.all.neesMean));
+  EXPECT_GT(*e.robot.all.neesMean, 1e60);
+}
+
 TEST(Evaluate, NeesOfDrawnErrorsIsChiSquare)
 {
   PerfectRun run(4000);

@@ -37,7 +37,7 @@ TEST(ShippedReproductions, LoadAndNameWhatThereIs)
       for (const Claim& claim : section.claims) isJudged = isJudged || !claim.parts.empty();
     EXPECT_TRUE(isJudged) << paper.name;
   }
-  for (const char* name : {"rbpf-slamot", "ekf-slamot-ci", "fastslam-family"})
+  for (const char* name : {"rbpf-slamot", "ekf-slamot-ci", "fastslam-family", "glint"})
     EXPECT_EQ(names.count(name), 1u) << name;
 }
 

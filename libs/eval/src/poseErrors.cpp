@@ -10,6 +10,9 @@ namespace
 {
 // Below this an eigenvalue of the correlation matrix is rounding: an error along it has no measure.
 constexpr double kSingular = 1e-9;
+// A variance this small [m2, rad2] is that of one particle which has all the weight, but for what
+// rounds to nothing: none, and squared errors by it would have no finite mean.
+constexpr double kNoVariance = 1e-100;
 
 struct Mean
 {
@@ -33,7 +36,8 @@ struct Mean
 std::optional<double> nees(const Eigen::Ref<const Eigen::VectorXd>& e,
                            const Eigen::Ref<const Eigen::MatrixXd>& P)
 {
-  if (!P.allFinite() || !e.allFinite() || P.diagonal().minCoeff() <= 0) return std::nullopt;
+  if (!P.allFinite() || !e.allFinite() || P.diagonal().minCoeff() <= kNoVariance)
+    return std::nullopt;
   const Eigen::VectorXd scale = P.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd correlation = scale.asDiagonal() * P * scale.asDiagonal();
   if (math::smallestEigenvalue(correlation) < kSingular) return std::nullopt;

@@ -33,6 +33,7 @@ white-space:nowrap;color:#fff;background:var(--none)}
 .study th{white-space:normal;min-width:6.5rem}
 .lead1 :is(td,th):nth-child(-n+1),.lead2 :is(td,th):nth-child(-n+2),.lead3 :is(td,th):nth-child(-n+3),
 .lead4 :is(td,th):nth-child(-n+4){text-align:left;padding-left:0;white-space:normal;max-width:12rem}
+.lead1 td:nth-child(1),.lead2 td:nth-child(2),.lead3 td:nth-child(3),.lead4 td:nth-child(4){min-width:12rem;max-width:20rem}
 .study td{vertical-align:top}.study td .faint{font-size:.85rem}.study td.same{color:var(--ink-axis);white-space:nowrap;overflow:hidden;text-overflow:ellipsis}
 .maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(27rem,100%),1fr));gap:0 1.2rem;align-items:start}
 .maps figure{max-width:44rem}
@@ -49,6 +50,7 @@ figure{overflow-x:auto}figure svg{min-width:38rem}.row figure svg,.maps figure s
 .checks tr{display:grid;grid-template-columns:auto 1fr auto;gap:.1rem .9rem;padding:.4rem 0;border-bottom:1px solid var(--ink-grid)}
 .checks td{border:0;padding:0;min-width:0!important}.checks td:first-child{grid-column:1/-1}
 .lead1 td:nth-child(-n+1),.lead2 td:nth-child(-n+2),.lead3 td:nth-child(-n+3),.lead4 td:nth-child(-n+4){white-space:normal;min-width:4rem}
+.lead1 td:nth-child(1),.lead2 td:nth-child(2),.lead3 td:nth-child(3),.lead4 td:nth-child(4){min-width:7rem}
 .study tr td{padding-right:.3rem}}
 @media print{.badge{print-color-adjust:exact;-webkit-print-color-adjust:exact}.claim,.verdicts li{break-inside:avoid}
 .claim{background:none}.wide{overflow:visible}table{font-size:8pt;break-inside:auto}tr{break-inside:avoid}
