@@ -11,17 +11,19 @@ TargetMotion targetMotionFrom(core::Params& p, const std::string& otherwise)
                  "target_speed_mps", "target_speed_std_mps", "target_turn_rate_deg_per_s",
                  "target_turn_rate_std_deg_per_s", "target_speed_noise_mps",
                  "target_turn_rate_noise_deg_per_s", "target_speed_walk_mps_per_sqrt_s",
-                 "target_turn_rate_walk_deg_per_s_per_sqrt_s"});
-  const std::string motion = p.choice(
-      "target_motion",
-      {"differential-drive", "damped-velocity", "constant-velocity", "constant-acceleration"},
-      otherwise);
+                 "target_turn_rate_walk_deg_per_s_per_sqrt_s", "target_modes", "target_mode_time_s",
+                 "target_heading_walk_deg_per_sqrt_s", "target_velocity_noise_mps_per_sqrt_hz"});
+  const std::string motion = p.choice("target_motion",
+                                      {"differential-drive", "damped-velocity", "constant-velocity",
+                                       "constant-acceleration", "manoeuvring"},
+                                      otherwise);
   if (motion == "differential-drive")
     return DifferentialDriveTarget(DifferentialDriveTarget::Params::from(p));
   if (motion == "damped-velocity")
     return DampedVelocityTarget(DampedVelocityTarget::Params::from(p));
   if (motion == "constant-velocity")
     return ConstantVelocityTarget(ConstantVelocityTarget::Params::from(p));
+  if (motion == "manoeuvring") return ManoeuvringTarget(ManoeuvringTarget::Params::from(p));
   return ConstantAccelerationTarget(ConstantAccelerationTarget::Params::from(p));
 }
 }  // namespace slamot::models

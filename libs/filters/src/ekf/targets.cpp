@@ -105,10 +105,34 @@ void EngineOf<Motion>::matchTargets(int robot, const core::BlobScan& scan, doubl
     if (out.matches[k] < 0) continue;
     const auto t = static_cast<std::size_t>(out.matches[k]);
     Innovation o;
-    if (innovation(k, t, o))
-      rows_.push_back(
-          ekf::rowsOf(robot, belief_.target(targets_[t].slot), o, out.rays.rays[k], noise(t)));
+    if (!innovation(k, t, o)) continue;
+    if constexpr (models::kHasModes<Motion>)
+    {
+      weighModes(targets_[t], o);
+      innovation(k, t, o);
+    }
+    rows_.push_back(
+        ekf::rowsOf(robot, belief_.target(targets_[t].slot), o, out.rays.rays[k], noise(t)));
   }
+}
+
+// A bank of models in the one Gaussian: their shares are told by the blob before it corrects
+// anything, and the Gaussian takes the mean and covariance that they have by the new ones.  Then
+// the blob corrects all as one; the models follow at their next move.
+template <class Motion>
+void EngineOf<Motion>::weighModes(Target& target, const Innovation& o)
+{
+  State state = stateOf(target);
+  const auto x = state.x;
+  const auto P = state.P;
+  Matrix2 S, H;
+  S << o.s11, o.s12, o.s12, o.s22;
+  H << o.h11, o.h12, o.h21, o.h22;
+  state.weigh(Vector2(o.nuR, o.nuB), S, H);
+  // What the target has in common with all else stays, but where less is left of it.
+  belief_.reshape(belief_.target(target.slot), state.x - x, models::stretch(P, state.P, true).T,
+                  state.P);
+  target.state = state;
 }
 
 template <class Motion>
@@ -197,5 +221,6 @@ SLAMOT_TARGETS_PART(models::DifferentialDriveTarget);
 SLAMOT_TARGETS_PART(models::DampedVelocityTarget);
 SLAMOT_TARGETS_PART(models::ConstantVelocityTarget);
 SLAMOT_TARGETS_PART(models::ConstantAccelerationTarget);
+SLAMOT_TARGETS_PART(models::ManoeuvringTarget);
 #undef SLAMOT_TARGETS_PART
 }  // namespace slamot::filters::ekf

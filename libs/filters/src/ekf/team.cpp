@@ -145,5 +145,6 @@ SLAMOT_TEAM_PART(models::DifferentialDriveTarget);
 SLAMOT_TEAM_PART(models::DampedVelocityTarget);
 SLAMOT_TEAM_PART(models::ConstantVelocityTarget);
 SLAMOT_TEAM_PART(models::ConstantAccelerationTarget);
+SLAMOT_TEAM_PART(models::ManoeuvringTarget);
 #undef SLAMOT_TEAM_PART
 }  // namespace slamot::filters::ekf

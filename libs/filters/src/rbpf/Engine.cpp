@@ -295,4 +295,5 @@ template class EngineOf<models::DifferentialDriveTarget>;
 template class EngineOf<models::DampedVelocityTarget>;
 template class EngineOf<models::ConstantVelocityTarget>;
 template class EngineOf<models::ConstantAccelerationTarget>;
+template class EngineOf<models::ManoeuvringTarget>;
 }  // namespace slamot::filters::rbpf

@@ -310,4 +310,5 @@ template class TargetMixture<models::DifferentialDriveTarget>;
 template class TargetMixture<models::DampedVelocityTarget>;
 template class TargetMixture<models::ConstantVelocityTarget>;
 template class TargetMixture<models::ConstantAccelerationTarget>;
+template class TargetMixture<models::ManoeuvringTarget>;
 }  // namespace slamot::filters::rbpf

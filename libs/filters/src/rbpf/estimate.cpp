@@ -147,5 +147,6 @@ SLAMOT_ESTIMATE_PART(models::DifferentialDriveTarget);
 SLAMOT_ESTIMATE_PART(models::DampedVelocityTarget);
 SLAMOT_ESTIMATE_PART(models::ConstantVelocityTarget);
 SLAMOT_ESTIMATE_PART(models::ConstantAccelerationTarget);
+SLAMOT_ESTIMATE_PART(models::ManoeuvringTarget);
 #undef SLAMOT_ESTIMATE_PART
 }  // namespace slamot::filters::rbpf

@@ -203,5 +203,6 @@ SLAMOT_SCAN_PART(models::DifferentialDriveTarget);
 SLAMOT_SCAN_PART(models::DampedVelocityTarget);
 SLAMOT_SCAN_PART(models::ConstantVelocityTarget);
 SLAMOT_SCAN_PART(models::ConstantAccelerationTarget);
+SLAMOT_SCAN_PART(models::ManoeuvringTarget);
 #undef SLAMOT_SCAN_PART
 }  // namespace slamot::filters::rbpf

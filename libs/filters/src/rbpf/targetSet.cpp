@@ -228,5 +228,6 @@ SLAMOT_TARGET_SET_PART(models::DifferentialDriveTarget);
 SLAMOT_TARGET_SET_PART(models::DampedVelocityTarget);
 SLAMOT_TARGET_SET_PART(models::ConstantVelocityTarget);
 SLAMOT_TARGET_SET_PART(models::ConstantAccelerationTarget);
+SLAMOT_TARGET_SET_PART(models::ManoeuvringTarget);
 #undef SLAMOT_TARGET_SET_PART
 }  // namespace slamot::filters::rbpf

@@ -2,6 +2,7 @@
 
 #include <slamot/models/DampedVelocityTarget.h>
 #include <slamot/models/DifferentialDriveTarget.h>
+#include <slamot/models/ManoeuvringTarget.h>
 #include <slamot/models/PolynomialTarget.h>
 
 #include <variant>
@@ -9,8 +10,12 @@
 namespace slamot::models
 {
 /// The motion model that the key `target_motion` names.
-using TargetMotion = std::variant<DifferentialDriveTarget, DampedVelocityTarget,
-                                  ConstantVelocityTarget, ConstantAccelerationTarget>;
+using TargetMotion =
+    std::variant<DifferentialDriveTarget, DampedVelocityTarget, ConstantVelocityTarget,
+                 ConstantAccelerationTarget, ManoeuvringTarget>;
+/// Whether a model of motion is a bank of several.
+template <class Motion>
+inline constexpr bool kHasModes = std::is_same_v<Motion, ManoeuvringTarget>;
 [[nodiscard]] TargetMotion targetMotionFrom(core::Params& p,
                                             const std::string& otherwise = "damped-velocity");
 }  // namespace slamot::models

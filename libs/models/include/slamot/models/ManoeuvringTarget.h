@@ -1,0 +1,133 @@
+#pragma once
+
+#include <slamot/core/Params.h>
+#include <slamot/core/Start.h>
+#include <slamot/models/TargetState.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace slamot::models
+{
+/// A target that now drives straight, now turns, now speeds up: a bank of models between which it
+/// switches at random (interacting multiple models: Blom, Bar-Shalom 1988; Bar-Shalom, Li,
+/// Kirubarajan 2001, section 11.6.6).  All have the state (x, y, vx, vy, ax, ay) in map axes, and
+/// what a model knows better than that is in its transition: no acceleration, or one that turns the
+/// velocity.  A target that takes to a turn or an acceleration has a rate or an acceleration drawn
+/// anew.
+///
+/// Outwardly a TargetState with the bank's mean and covariance, which filters may correct and move
+/// as they do any other; the bank follows.
+class ManoeuvringTarget
+{
+ public:
+  static constexpr int kSize = 6;
+  static constexpr int kAngle = -1;  ///< none wraps
+  static constexpr int kMostModes = 5;
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+
+  enum class Mode
+  {
+    kVelocity,     ///< constant velocity
+    kLeftTurn,     ///< turns at a known rate
+    kRightTurn,    ///< the same to the right
+    kTurn,         ///< coordinated turn: turns at a rate that is estimated
+    kAcceleration  ///< constant acceleration
+  };
+  struct Params
+  {
+    std::vector<Mode> modes;  ///< at least one, at most kMostModes
+    double modeTime;          ///< [s] mean time from one switch to the next
+    double velocityStd;       ///< [m/s] per axis, of a target just seen first
+    double accelerationStd;   ///< [m/s²] per axis, of a target that begins to speed up
+    double turnRate;          ///< [rad/s] of left and right turns
+    double turnRateStd;       ///< [rad/s] of the rate of a coordinated turn that begins
+    std::optional<double>
+        speed;                 ///< [m/s] where the heading at the start is known; absent: unknown
+    double speedStd;           ///< [m/s] its deviation
+    double velocityNoise;      ///< [m/s per square root of Hz] along the way, in all modes
+    double headingWalk;        ///< [rad per square root of a second] in all modes but acceleration
+    double accelerationNoise;  ///< [m/s² per square root of Hz] per axis, in the same modes
+    double jerkNoise;          ///< [m/s³ per square root of Hz] per axis, of constant acceleration
+    double turnRateNoise;      ///< [rad/s per square root of a second] of a coordinated turn
+    static Params from(core::Params& p);
+  };
+  /// One model's belief.
+  struct Member
+  {
+    Vector x = Vector::Zero();
+    Matrix P = Matrix::Zero();
+    double weight = 0;  ///< its probability
+
+    /// Takes in another, its weight multiplied: one Gaussian with the moments of both.
+    void add(const Member& m, double times);
+  };
+  struct State : TargetState<kSize>
+  {
+    int modes = 0;
+    std::array<Member, kMostModes> bank;  ///< the first `modes`
+    TargetState<kSize>
+        known;  ///< mean and covariance when the bank was last made to agree with them
+
+    /// TargetState::correct() for each model by its own distance from the mean, then models are
+    /// weighed by their likelihoods.
+    void correct(const Vector2& nu, const Matrix2& S, const Matrix2& H, const Matrix2& doubt);
+    template <int M>
+    void correct(const Vector2& nu, const Matrix2& S, const Matrix2& H, const Matrix2& doubt)
+    {
+      correct(nu, S, H, doubt);
+    }
+    /// Weighs the models by an innovation taken at the mean, S of all that is uncertain, and leaves
+    /// it to the caller to correct x and P, which become the mean and covariance by the new
+    /// weights.
+    void weigh(const Vector2& nu, const Matrix2& S, const Matrix2& H);
+    /// Makes the bank agree with x and P where somebody else has changed them: each model is moved
+    /// and stretched as the whole was.
+    void conform();
+    /// x and P from the bank.
+    void combine();
+  };
+
+  explicit ManoeuvringTarget(const Params& params) : params_(params) {}
+
+  [[nodiscard]] State start(const core::ObjectStart& start) const;
+  [[nodiscard]] State birth(const Gaussian<Point2D>& place) const;
+  /// The transition is that of the whole: F the models' mean, Q all that their predictions differ
+  /// by.
+  TargetTransition<kSize> move(State& s, double dt) const;
+  void predict(State& s, double dt) const;
+  bool afterCorrection(State&, const Gaussian<Point2D>*) const { return false; }
+
+  [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
+  [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
+  [[nodiscard]] static Kinematics<kSize, kSize> kinematics(const State& s);
+  [[nodiscard]] static bool hasVelocity(const State&) { return true; }
+  /// Of somebody's (x, y, vx, vy, ax, ay), whose modes are not known: turns and accelerations that
+  /// may be are noise.
+  [[nodiscard]] TargetTransition<kSize> kinematicTransition(const Vector& x, double dt) const;
+  [[nodiscard]] double accelerationStd() const { return params_.accelerationStd; }
+  static void widen(State& s, const Matrix3& poseCov);
+
+ private:
+  [[nodiscard]] State bankOf(const TargetState<kSize>& s, bool knowsAcceleration) const;
+  void mix(State& s, double dt) const;
+  /// What a member becomes that has just taken to a mode.
+  [[nodiscard]] Member taking(Mode to, const Member& m) const;
+  /// One model's prediction.  \return its derivative.
+  Matrix moveMember(Mode mode, Member& m, double dt) const;
+
+  Params params_;
+};
+
+/// A linear map T and what is left over such that T from Tᵀ + left = to, left >= 0: whatever is
+/// correlated with errors of covariance `from` may be taken along by T.  Where `to` is the larger,
+/// `shrinkOnly` makes T the identity, else T stretches.
+struct Stretch
+{
+  ManoeuvringTarget::Matrix T, left;
+};
+[[nodiscard]] Stretch stretch(const ManoeuvringTarget::Matrix& from,
+                              const ManoeuvringTarget::Matrix& to, bool shrinkOnly);
+}  // namespace slamot::models
