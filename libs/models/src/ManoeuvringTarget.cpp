@@ -1,7 +1,8 @@
 #include <slamot/models/ManoeuvringTarget.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <slamot/models/stretch.h>
+
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -128,6 +129,9 @@ Matrix symmetric(const Matrix& M)
 {
   return 0.5 * (M + M.transpose());
 }
+
+using Rows = Eigen::Matrix<double, 4, 6>;
+
 }  // namespace
 
 ManoeuvringTarget::Params ManoeuvringTarget::Params::from(core::Params& p)
@@ -314,21 +318,19 @@ TargetTransition<ManoeuvringTarget::kSize> ManoeuvringTarget::move(State& s, dou
 {
   s.conform();
   const Matrix before = s.P;
-  TargetTransition<kSize> out;
-  out.F.setZero();
   mix(s, dt);
+  s.combine();
+  // Taking to other modes leaves places and velocities as they are.
+  const Matrix mixing = transitionOf(before, s.P, Matrix::Identity().topRows<4>()).F;
+  Rows rows = Rows::Zero();
   for (int j = 0; j < s.modes; ++j)
   {
     Member& m = s.bank[static_cast<std::size_t>(j)];
-    out.F += m.weight * moveMember(params_.modes[static_cast<std::size_t>(j)], m, dt);
+    const Matrix F = moveMember(params_.modes[static_cast<std::size_t>(j)], m, dt);
+    rows += m.weight * F.topRows<4>();
   }
   s.combine();
-  // Models part less than their mean transition makes errors grow, in some directions: there errors
-  // are shrunk, for Q can't take anything away.
-  const Stretch by = stretch(symmetric(out.F * before * out.F.transpose()), s.P, true);
-  out.F = (by.T * out.F).eval();
-  out.Q = by.left;
-  return out;
+  return transitionOf(before, s.P, rows * mixing);
 }
 
 void ManoeuvringTarget::predict(State& s, double dt) const
@@ -404,7 +406,7 @@ void ManoeuvringTarget::State::conform()
   if ((known.P - P).norm() <= kRounding * P.norm() &&
       (known.x - x).norm() <= kRounding * (1 + x.norm()))
     return;
-  const Stretch by = stretch(known.P, P, false);
+  const Stretch<6> by = stretch<6>(known.P, P, false);
   for (int j = 0; j < modes; ++j)
   {
     Member& m = bank[static_cast<std::size_t>(j)];
@@ -417,6 +419,15 @@ void ManoeuvringTarget::State::conform()
 
 namespace
 {
+/// Where models have less in common with all else than was assumed.
+Matrix positive(const Matrix& P)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(P);
+  if (eigen.eigenvalues()[0] >= 0) return P;
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
 /// ln N(nu; 0, S) but for a constant; S is brought back above a tenth of `least` where it is not.
 double logDensity(const Vector2& nu, Matrix2& S, const Matrix2& least)
 {
@@ -445,64 +456,39 @@ void reweigh(ManoeuvringTarget::State& s,
 }
 }  // namespace
 
-void ManoeuvringTarget::State::weigh(const Vector2& nu, const Matrix2& S, const Matrix2& H)
-{
-  conform();
-  std::array<double, kMostModes> logs{};
-  for (int j = 0; j < modes; ++j)
-  {
-    const Member& m = bank[static_cast<std::size_t>(j)];
-    const Vector d = m.x - x;
-    Matrix2 own = S + H * (m.P - P).topLeftCorner<2, 2>() * H.transpose();
-    logs[static_cast<std::size_t>(j)] = logDensity(nu - H * d.head<2>(), own, S);
-  }
-  reweigh(*this, logs);
-  combine();
-}
-
 void ManoeuvringTarget::State::correct(const Vector2& nu, const Matrix2& S, const Matrix2& H,
-                                       const Matrix2& doubt)
+                                       const Matrix2& doubt,
+                                       const Eigen::Matrix<double, kSize, 2>& across, bool isOwn)
 {
   conform();
   std::array<double, kMostModes> logs{};
   for (int j = 0; j < modes; ++j)
   {
     Member& m = bank[static_cast<std::size_t>(j)];
+    const Eigen::Matrix<double, kSize, 2> more = (m.P - P).leftCols<2>() * H.transpose();
     const Vector2 own = nu - H * (m.x - x).head<2>();
-    Matrix2 ownS = S + H * (m.P - P).topLeftCorner<2, 2>() * H.transpose();
+    Matrix2 ownS = S + H * more.topRows<2>();
     logs[static_cast<std::size_t>(j)] = logDensity(own, ownS, S);
-    const Eigen::Matrix<double, kSize, 2> PHt = m.P.leftCols<2>() * H.transpose();
-    const Eigen::Matrix<double, kSize, 2> K = PHt * ownS.inverse();
+    const Eigen::Matrix<double, kSize, 2> PHt = across + more, K = PHt * ownS.inverse();
     m.x += K * own;
     m.P = symmetric(m.P - K * PHt.transpose() + PHt * doubt * PHt.transpose());
+    if (!isOwn) m.P = positive(m.P);
   }
   reweigh(*this, logs);
   combine();
 }
 
-Stretch stretch(const Matrix& from, const Matrix& to, bool shrinkOnly)
+TargetTransition<6> transitionOf(const Matrix& from, const Matrix& to, const Rows& rows)
 {
-  // In coordinates where `from` is the identity, but for those that it knows exactly: what of `to`
-  // is left in the others given these.
-  constexpr double kExact = 1e-13;
-  const Eigen::SelfAdjointEigenSolver<Matrix> a(from);
-  Vector root = a.eigenvalues().cwiseMax(0).cwiseSqrt(), inverse = Vector::Zero();
-  for (int i = 0; i < root.size(); ++i)
-    if (a.eigenvalues()[i] > kExact * a.eigenvalues()[root.size() - 1]) inverse[i] = 1 / root[i];
-  const Matrix R = a.eigenvectors() * root.asDiagonal() * a.eigenvectors().transpose();
-  const Matrix I = a.eigenvectors() * inverse.asDiagonal() * a.eigenvectors().transpose();
-  const Matrix some = to + kExact * to.trace() * Matrix::Identity();
-  const Eigen::SelfAdjointEigenSolver<Matrix> g(symmetric(R * some.inverse() * R));
-  Vector by = Vector::Zero();
-  for (int i = 0; i < by.size(); ++i)
-    if (g.eigenvalues()[i] > kExact) by[i] = 1 / std::sqrt(g.eigenvalues()[i]);
-  if (shrinkOnly) by = by.cwiseMin(1);
-  Stretch out;
-  out.T = R * g.eigenvectors() * by.asDiagonal() * g.eigenvectors().transpose() * I;
-  const Eigen::SelfAdjointEigenSolver<Matrix> left(
-      symmetric(to - out.T * from * out.T.transpose()));
-  out.left = left.eigenvectors() * left.eigenvalues().cwiseMax(0).asDiagonal() *
-             left.eigenvectors().transpose();
+  const Eigen::Matrix4d own = to.topLeftCorner<4, 4>(), moved = rows * from * rows.transpose();
+  const Stretch<4> by = stretch<4>(0.5 * (moved + moved.transpose()), own, true);
+  constexpr double kRounding = 1e-13;
+  const Eigen::Matrix4d some = own + kRounding * own.trace() * Eigen::Matrix4d::Identity();
+  Eigen::Matrix<double, 6, 4> all;
+  all << Eigen::Matrix4d::Identity(), some.ldlt().solve(to.topRightCorner<4, 2>()).transpose();
+  TargetTransition<6> out;
+  out.F = all * by.T * rows;
+  out.Q = symmetric(to - out.F * from * out.F.transpose());
   return out;
 }
 }  // namespace slamot::models

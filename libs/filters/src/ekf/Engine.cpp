@@ -101,6 +101,8 @@ void EngineOf<Motion>::takeScan(int robot, const core::Step& step, const core::L
   if (step.blobs) matchMates(robot, *step.blobs, step.time, ofMates);
   belief_.update(rows_);
   wrapAngles();
+  updateBanks(robot, blobs, step.time);
+  wrapAngles();
   if (scan)
   {
     const auto slots = map_.settle(robot, *scan, landmarks, step.time);

@@ -98,7 +98,7 @@ class EngineOf : public Hypothesis
                   std::vector<core::Pairing>& pairings);
   [[nodiscard]] double noiseOf(int robot, int mate, double time) const;
   [[nodiscard]] Gaussian<Point2D> seenPlace(int robot, const Ray& ray) const;
-  void weighModes(Target& target, const Innovation& o);
+  void updateBanks(int robot, const BlobScan& scan, double time);
   void settleTargets(int robot, const BlobScan& scan, double time,
                      std::vector<core::Pairing>& pairings);
   void birth(int robot, const Ray& ray);

@@ -105,34 +105,46 @@ void EngineOf<Motion>::matchTargets(int robot, const core::BlobScan& scan, doubl
     if (out.matches[k] < 0) continue;
     const auto t = static_cast<std::size_t>(out.matches[k]);
     Innovation o;
-    if (!innovation(k, t, o)) continue;
-    if constexpr (models::kHasModes<Motion>)
-    {
-      weighModes(targets_[t], o);
-      innovation(k, t, o);
-    }
-    rows_.push_back(
-        ekf::rowsOf(robot, belief_.target(targets_[t].slot), o, out.rays.rays[k], noise(t)));
+    if (!models::kHasModes<Motion> && innovation(k, t, o))
+      rows_.push_back(
+          ekf::rowsOf(robot, belief_.target(targets_[t].slot), o, out.rays.rays[k], noise(t)));
   }
 }
 
-// A bank of models in the one Gaussian: their shares are told by the blob before it corrects
-// anything, and the Gaussian takes the mean and covariance that they have by the new ones.  Then
-// the blob corrects all as one; the models follow at their next move.
+// A bank of models in the one Gaussian, after what else the scan tells: the blob corrects all of
+// the Gaussian as one, and each model by its own innovation; then the target takes the mean and
+// covariance that its models have.  What it has in common with all else stays, but where less doubt
+// is left.
 template <class Motion>
-void EngineOf<Motion>::weighModes(Target& target, const Innovation& o)
+void EngineOf<Motion>::updateBanks(int robot, const BlobScan& scan, double time)
 {
-  State state = stateOf(target);
-  const auto x = state.x;
-  const auto P = state.P;
-  Matrix2 S, H;
-  S << o.s11, o.s12, o.s12, o.s22;
-  H << o.h11, o.h12, o.h21, o.h22;
-  state.weigh(Vector2(o.nuR, o.nuB), S, H);
-  // What the target has in common with all else stays, but where less is left of it.
-  belief_.reshape(belief_.target(target.slot), state.x - x, models::stretch(P, state.P, true).T,
-                  state.P);
-  target.state = state;
+  if constexpr (models::kHasModes<Motion>)
+    for (std::size_t k = 0; k < scan.matches.size(); ++k)
+    {
+      if (scan.matches[k] < 0) continue;
+      const auto t = static_cast<std::size_t>(scan.matches[k]);
+      Target& target = targets_[t];
+      const int j = belief_.target(target.slot);
+      const double noise = settings_.noiseAfter(time - tracks_.list()[t].lastSeen);
+      Innovation o;
+      if (!relate(belief_, robot, j, eyeOf(belief_, robot), scan.rays.rays[k], o, noise)) continue;
+      const SightingRows row = ekf::rowsOf(robot, j, o, scan.rays.rays[k], noise);
+      State state = stateOf(target);
+      Matrix2 S, E;
+      S << o.s11, o.s12, o.s12, o.s22;
+      E << o.e11, o.e12, o.e12, o.e22;
+      const Eigen::Matrix<double, kSize, 2> across =
+          belief_.P().template block<kSize, 2>(j, j) * row.byObject.transpose() +
+          belief_.P().template block<kSize, 3>(j, robot) * row.byRobot.transpose();
+      state.correct(row.innovation, S, row.byObject, E, across);
+      belief_.update({row});
+      const State asOne = stateOf(target);
+      const auto F =
+          models::transitionOf(asOne.P, state.P, Eigen::Matrix<double, 4, kSize>::Identity()).F;
+      belief_.reshape(j, state.x - asOne.x, F, state.P);
+      target.state = state;
+      rows_.push_back(row);
+    }
 }
 
 template <class Motion>
@@ -214,6 +226,7 @@ void EngineOf<Motion>::dropLost(double time)
   template const EngineOf<Motion>::Target* EngineOf<Motion>::targetWith(int) const;            \
   template void EngineOf<Motion>::moveTargets(double);                                         \
   template void EngineOf<Motion>::matchTargets(int, const core::BlobScan&, double, BlobScan&); \
+  template void EngineOf<Motion>::updateBanks(int, const BlobScan&, double);                   \
   template void EngineOf<Motion>::settleTargets(int, const BlobScan&, double,                  \
                                                 std::vector<core::Pairing>&);                  \
   template void EngineOf<Motion>::dropLost(double)

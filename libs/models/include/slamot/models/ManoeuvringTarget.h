@@ -73,16 +73,16 @@ class ManoeuvringTarget
 
     /// TargetState::correct() for each model by its own distance from the mean, then models are
     /// weighed by their likelihoods.
-    void correct(const Vector2& nu, const Matrix2& S, const Matrix2& H, const Matrix2& doubt);
     template <int M>
     void correct(const Vector2& nu, const Matrix2& S, const Matrix2& H, const Matrix2& doubt)
     {
-      correct(nu, S, H, doubt);
+      correct(nu, S, H, doubt, P.leftCols<2>() * H.transpose(), true);
     }
-    /// Weighs the models by an innovation taken at the mean, S of all that is uncertain, and leaves
-    /// it to the caller to correct x and P, which become the mean and covariance by the new
-    /// weights.
-    void weigh(const Vector2& nu, const Matrix2& S, const Matrix2& H);
+    /// The same where more than the target is uncertain: S is of all that is, and `across` the
+    /// covariance of the target with the innovation.  What of both is not the target's own is the
+    /// same for all models.
+    void correct(const Vector2& nu, const Matrix2& S, const Matrix2& H, const Matrix2& doubt,
+                 const Eigen::Matrix<double, kSize, 2>& across, bool isOwn = false);
     /// Makes the bank agree with x and P where somebody else has changed them: each model is moved
     /// and stretched as the whole was.
     void conform();
@@ -94,8 +94,8 @@ class ManoeuvringTarget
 
   [[nodiscard]] State start(const core::ObjectStart& start) const;
   [[nodiscard]] State birth(const Gaussian<Point2D>& place) const;
-  /// The transition is that of the whole: F the models' mean, Q all that their predictions differ
-  /// by.
+  /// The transition is that of the whole.  F is the models' mean for place and velocity, which an
+  /// acceleration goes with; Q the rest of what they leave.
   TargetTransition<kSize> move(State& s, double dt) const;
   void predict(State& s, double dt) const;
   bool afterCorrection(State&, const Gaussian<Point2D>*) const { return false; }
@@ -121,13 +121,10 @@ class ManoeuvringTarget
   Params params_;
 };
 
-/// A linear map T and what is left over such that T from Tᵀ + left = to, left >= 0: whatever is
-/// correlated with errors of covariance `from` may be taken along by T.  Where `to` is the larger,
-/// `shrinkOnly` makes T the identity, else T stretches.
-struct Stretch
-{
-  ManoeuvringTarget::Matrix T, left;
-};
-[[nodiscard]] Stretch stretch(const ManoeuvringTarget::Matrix& from,
-                              const ManoeuvringTarget::Matrix& to, bool shrinkOnly);
+/// The transition that takes errors of covariance `from` to `to`, given what becomes of place and
+/// velocity (the rows): shrunk where they have less doubt than that, for noise takes nothing away.
+/// The acceleration is what place and velocity tell of it.
+[[nodiscard]] TargetTransition<6> transitionOf(const ManoeuvringTarget::Matrix& from,
+                                               const ManoeuvringTarget::Matrix& to,
+                                               const Eigen::Matrix<double, 4, 6>& rows);
 }  // namespace slamot::models
