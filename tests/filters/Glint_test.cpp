@@ -160,6 +160,15 @@ TEST(Glint, PosesDoubtIsNoGlint)
   EXPECT_LT(doubtful.factor, 1.3);
 }
 
+TEST(Glint, WhatIsSeenOnceMayBeAnOutlier)
+{
+  const NoiseLaw law({0.3, Tail::kGaussian, 5, 2});
+  Ray z = Ray::of(3, 0.2, 0.1, 0.02);
+  const Matrix2 normal = invert(Eye(Pose2D()), z).cov;
+  z.law = &law;
+  EXPECT_LT((invert(Eye(Pose2D()), z).cov - (0.7 + 0.3 * 25) * normal).norm(), 1e-12);
+}
+
 TEST(Glint, BearingAloneIsOneDimensional)
 {
   const NoiseLaw law({0.3, Tail::kGaussian, 5, 2});

@@ -29,7 +29,11 @@ sim::Scenario scenario()
   return sim::Scenario::from(config);
 }
 
-Errors run(const std::string& methods, const std::string& rule, int seeds)
+const std::vector<std::string> kManoeuvring{"ekf-slamot.target_motion=manoeuvring",
+                                            "rbpf-slamot.target_motion=manoeuvring"};
+
+Errors run(const std::string& methods, const std::string& rule, int seeds,
+           const std::vector<std::string>& settings = {})
 {
   filters::registerAll();
   const sim::Scenario world = scenario();
@@ -39,6 +43,7 @@ Errors run(const std::string& methods, const std::string& rule, int seeds)
     core::Config config = core::Config::load(kConfigs + "team-mixed.ini");
     config.set("team.methods=" + methods);
     config.set("team.rule=" + rule);
+    for (const std::string& setting : settings) config.set(setting);
     const auto s = static_cast<std::uint64_t>(seed);
     sim::World first(world, s, sim::World::Sightings::kAsRead, 0);
     sim::World second(world, s, sim::World::Sightings::kAsRead, 1);
@@ -61,9 +66,11 @@ Errors run(const std::string& methods, const std::string& rule, int seeds)
   return out;
 }
 
-void expectHelped(const std::string& methods, int seeds)
+void expectHelped(const std::string& methods, int seeds,
+                  const std::vector<std::string>& settings = {})
 {
-  const Errors alone = run(methods, "none", seeds), together = run(methods, "ci", seeds);
+  const Errors alone = run(methods, "none", seeds, settings);
+  const Errors together = run(methods, "ci", seeds, settings);
   EXPECT_EQ(alone.fused, 0);
   EXPECT_GT(together.fused, 2 * seeds);
   EXPECT_LT(together.robot, 0.7 * alone.robot);
@@ -82,6 +89,12 @@ TEST(MixedTeam, OfEkfAndParticleFilterIsBetterThanEachAlone)
 TEST(MixedTeam, OfParticleFiltersIsBetterThanEachAlone)
 {
   expectHelped("rbpf-slamot, rbpf-slamot", 3);
+}
+
+// With a bank of models in each robot, which tell one another the bank's mean and covariance.
+TEST(MixedTeam, WithBanksOfModelsIsBetterThanEachAlone)
+{
+  expectHelped("ekf-slamot, rbpf-slamot", 4, kManoeuvring);
 }
 
 TEST(MixedTeam, RunsByEveryRule)

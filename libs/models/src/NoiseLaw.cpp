@@ -41,6 +41,7 @@ NoiseLaw::NoiseLaw(const Settings& settings) : settings_(settings)
   }
   std::sort(components_.begin(), components_.end(),
             [](const Component& a, const Component& b) { return a.factor < b.factor; });
+  for (const Component& c : components_) meanFactor_ += c.weight * c.factor;
 }
 
 std::shared_ptr<const NoiseLaw> NoiseLaw::from(core::Params& p, const std::string& prefix,

@@ -200,6 +200,12 @@ inline void correct(maps::Landmark& m, const Innovation& o)
   ++m.sightings;
 }
 
+/// Whether a sighting glints, nothing tells where it is all there is.
+inline double noiseAlone(const Ray& z)
+{
+  return z.law ? z.law->meanFactor() : 1;
+}
+
 /// The place that a sighting alone gives, with covariance from its noise.
 inline Gaussian<Point2D> invert(const Eye& eye, const Ray& z)
 {
@@ -210,6 +216,7 @@ inline Gaussian<Point2D> invert(const Eye& eye, const Ray& z)
   out.cov(0, 0) = c * c * z.varRange + s * s * across;
   out.cov(1, 1) = s * s * z.varRange + c * c * across;
   out.cov(0, 1) = out.cov(1, 0) = c * s * (z.varRange - across);
+  if (z.law) out.cov *= noiseAlone(z);
   return out;
 }
 

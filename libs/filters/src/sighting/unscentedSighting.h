@@ -103,6 +103,7 @@ inline Gaussian<Point2D> invertUnscented(const Eye& eye, const Ray& z)
   out.cov(0, 0) = c * c * varAlong + s * s * varAcross;
   out.cov(1, 1) = s * s * varAlong + c * c * varAcross;
   out.cov(0, 1) = out.cov(1, 0) = c * s * (varAlong - varAcross);
+  if (z.law) out.cov *= noiseAlone(z);
   return out;
 }
 }  // namespace slamot::filters

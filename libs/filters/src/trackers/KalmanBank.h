@@ -19,15 +19,7 @@ class KalmanBank : public Bank
   void start(const core::ObjectStart& told) override { targets_.push_back(motion_.start(told)); }
   void birth(const Eye& eye, const Seen& z) override
   {
-    // The first observation may be an outlier too.
-    Gaussian<Point2D> place = invert(eye, z.polar());
-    if (z.ray.law)
-    {
-      double factor = 0;
-      for (const auto& c : z.ray.law->components()) factor += c.weight * c.factor;
-      place.cov *= factor;
-    }
-    targets_.push_back(motion_.birth(place));
+    targets_.push_back(motion_.birth(invert(eye, z.polar())));
   }
   void drop(std::size_t target) override
   {

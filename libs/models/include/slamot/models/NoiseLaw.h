@@ -52,6 +52,8 @@ class NoiseLaw
   [[nodiscard]] const std::vector<Component>& components() const { return components_; }
   /// The largest factor: beyond a gate of that there is nothing.
   [[nodiscard]] double widest() const { return components_.back().factor; }
+  /// The mean factor: of the covariance of an error of which nothing tells whether it glints.
+  [[nodiscard]] double meanFactor() const { return meanFactor_; }
   /// What multiplies R for one error, drawn from the exact law.
   [[nodiscard]] double drawFactor(math::RandomStream& random) const;
 
@@ -61,5 +63,6 @@ class NoiseLaw
 
   Settings settings_;
   std::vector<Component> components_;
+  double meanFactor_ = 0;
 };
 }  // namespace slamot::models
