@@ -16,19 +16,28 @@ class Config
 
   /// \throws Error (kConfig): the file can't be read, or as parse().
   static Config load(const std::string& path);
-  /// \param name stands for the text in messages.  \throws Error (kConfig) on a malformed line.
+  /// Reads a text; `name` stands for it in messages.
+  /// \throws Error (kConfig) on a malformed line.
   static Config parse(const std::string& text, const std::string& name);
 
   /// Sets `Section.key=value`, as --set does.  \throws Error (kConfig) on another form.
   void set(const std::string& assignment);
+  /// The same, value untouched. \throws Error (kConfig) if the value holds a line break or `//`,
+  /// which no ini file could hold.
   void set(const std::string& section, const std::string& key, const std::string& value);
 
+  /// The file's name without its folders: stands before every complaint.
   [[nodiscard]] const std::string& name() const { return name_; }
+
+  /// Whether the section, or the section and the key in it, was read or set.
   [[nodiscard]] bool has(const std::string& section) const { return sections_.count(section) > 0; }
+  /// The same of a key.
   [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
+  /// In alphabetical order.
   [[nodiscard]] std::vector<std::string> sections() const;
   /// Takes over the other's sections that this one has not.
   void addMissingSections(const Config& other);
+  /// Removes a section with all its keys, read or not.
   void erase(const std::string& section) { sections_.erase(section); }
 
   /// \throws Error (kConfig): a section or key that nobody read, with the nearest that was asked

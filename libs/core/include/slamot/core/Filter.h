@@ -33,9 +33,9 @@ class Filter
 /// What a filter is made with, besides its parameters.
 struct FilterContext
 {
-  Starts starts;
-  std::uint64_t seed = 1;
-  int threads = 1;
+  Starts starts;  ///< what is known of where robot and targets start, from the log or the config
+  std::uint64_t seed = 1;  ///< fixes every random number that the filter draws
+  int threads = 1;         ///< that it may use; no result may depend on how many
   /// The robot's true pose at a time, if known there: only for the bound `true-pose-target`, which
   /// says so by its name.  Empty for every other filter.
   std::function<std::optional<Pose2D>(double time)> truePose{};

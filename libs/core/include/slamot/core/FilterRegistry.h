@@ -1,5 +1,8 @@
 #pragma once
 
+/// \file
+/// The registry of filters, and SLAMOT_REGISTER_FILTER for plugins.
+
 #include <slamot/core/Filter.h>
 #include <slamot/core/Params.h>
 
@@ -15,14 +18,18 @@ namespace slamot::core
 class FilterRegistry
 {
  public:
+  /// Makes a filter from its section of the config. \throws Error (kConfig) by Params' readers.
   using Factory = std::function<std::unique_ptr<Filter>(Params&, const FilterContext&)>;
 
+  /// The one of this process, for the program and every plugin that it loads.
   static FilterRegistry& instance();
 
   /// A name that comes twice is an error of make(): plugins add while they are loaded, where an
   /// exception would end the program.
   void add(const std::string& name, Factory factory);
+  /// Whether make() would find it.
   [[nodiscard]] bool has(const std::string& name) const { return factories_.count(name) > 0; }
+  /// In alphabetical order.
   [[nodiscard]] std::vector<std::string> names() const;
 
   /// Makes the filter `name` with the config's section of that name.

@@ -9,12 +9,14 @@ namespace slamot::core
 /// anew each step.  Section [odometer].
 struct OdometryModel
 {
-  bool fromLog = true;
-  double vStd = 0;           ///< [m/s]
-  double omegaStd = 0;       ///< [rad/s]
+  bool fromLog = true;  ///< take the log's covariances; the deviations below are then not looked at
+  double vStd = 0;      ///< [m/s]
+  double omegaStd = 0;  ///< [rad/s]
   double vScaleStd = 0;      ///< part of the speed
   double omegaScaleStd = 0;  ///< part of the turn rate
 
+  /// Reads `noise` (log | model), `v_std_mps`, `omega_std_deg_per_s`, `v_scale_std`,
+  /// `omega_scale_std`. \throws Error (kConfig)
   static OdometryModel from(Params& p);
 
   /// The increment with the model's covariance, over dt [s].

@@ -13,7 +13,7 @@ struct RobotAndTarget
 {
   static constexpr int kRobot = 3;  ///< coordinates of the robot; the target's begin here
 
-  double time = 0;
+  double time = 0;       ///< of the belief [s], the robot's own clock
   int target = kNoId;    ///< identity of the target; none: `mean` has the robot only
   Eigen::VectorXd mean;  ///< 3, 7 or 9 coordinates
   Eigen::MatrixXd cov;   ///< symmetric, positive semidefinite
@@ -27,7 +27,7 @@ struct RobotAndTarget
 /// an unknown way, but for the part `independent`.
 struct Evidence
 {
-  int target = kNoId;
+  int target = kNoId;           ///< which target H's columns from RobotAndTarget::kRobot on are of
   Eigen::MatrixXd H;            ///< rows of b, columns of RobotAndTarget
   Eigen::VectorXd innovation;   ///< b - H x
   Eigen::MatrixXd cov;          ///< of e, in all: symmetric, positive definite
@@ -37,16 +37,17 @@ struct Evidence
 /// How correlated estimates are made one.
 enum class FusionRule
 {
-  kNone,
+  kNone,     ///< nothing is exchanged, each robot is by itself
   kCi,       ///< covariance intersection on the whole state: consistent for every correlation
   kSplitCi,  ///< the same, the independent part of the noise not inflated
   kIci,      ///< inverse covariance intersection, regressed on the rest: not guaranteed
   kPaper     ///< block by block as published: not consistent
 };
 
+/// How a filter is to take in an Evidence.
 struct FusionOptions
 {
-  FusionRule rule = FusionRule::kCi;
+  FusionRule rule = FusionRule::kCi;  ///< which of the rules
   std::optional<double> omega;  ///< weight of one's own estimate, in (0, 1]; absent: optimised
   double headingLever = 5;  ///< [m]: the criterion adds (lever times heading)² to the positions'
 };
@@ -55,7 +56,7 @@ struct FusionOptions
 struct Fusion
 {
   bool fused = false;  ///< false: it did not pay, and nothing changed
-  double omega = 1;
+  double omega = 1;    ///< the weight that was used; 1 if nothing was fused
 };
 
 /// A filter that can be one of a team: gives and takes a Gaussian over its robot and a target.

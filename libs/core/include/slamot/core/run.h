@@ -25,22 +25,26 @@ class Sink
   virtual ~Sink() = default;
   /// The belief before the first step.
   virtual void begin(const Estimate&) {}
+  /// A step, and what the filter made of it.
   virtual void accept(const Step& step, const Update& update) = 0;
   /// The end; `complete` is false if the run was interrupted or its input ended too early.
   virtual void finish(bool complete) = 0;
 };
 
+/// What a caller may do while run() goes on.
 struct RunOptions
 {
   const std::atomic<bool>* stop =
       nullptr;  ///< ends the run at a step's boundary when it turns true
-  std::function<void(std::size_t steps, double progress)> onProgress;
+  std::function<void(std::size_t steps, double progress)>
+      onProgress;  ///< called after every step; progress from 0 to 1
 };
 
+/// How run() ended.
 struct RunResult
 {
-  std::size_t steps = 0;
-  bool interrupted = false;
+  std::size_t steps = 0;     ///< that the filter took in
+  bool interrupted = false;  ///< by RunOptions::stop
 };
 
 /// The pipeline: every step of the source through the filter, into every sink.

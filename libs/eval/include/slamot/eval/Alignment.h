@@ -6,7 +6,9 @@ namespace slamot::eval
 {
 /// none, first-pose, rigid.
 [[nodiscard]] std::vector<std::string> alignNames();
+/// As alignNamed() reads it.
 [[nodiscard]] std::string nameOf(Align align);
+/// None for a name that is not one of alignNames().
 [[nodiscard]] std::optional<Align> alignNamed(const std::string& name);
 
 /// The rotation and translation, without scale, that takes `from` nearest to `to` in the sense of
@@ -19,8 +21,8 @@ namespace slamot::eval
 /// A run and its truth, for alignment().
 struct RunWithTruth
 {
-  const Record* record;
-  const Truth* truth;
+  const Record* record;  ///< never null
+  const Truth* truth;    ///< never null
 };
 
 /// The pose that takes the map's frame to the truth's; several robots share one map frame and are

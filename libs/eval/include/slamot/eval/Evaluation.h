@@ -10,7 +10,7 @@ namespace slamot::eval
 /// How the map's frame is laid over the truth's before errors are taken; never scaled.
 enum class Align
 {
-  kNone,
+  kNone,       ///< frames are the same, as where starts are given
   kFirstPose,  ///< the first pose with truth agrees exactly
   kRigid       ///< least squares over all positions of the robot
 };
@@ -40,29 +40,35 @@ struct ErrorSummary
       0;  ///< steps left out of the last two: covariance singular, as of an exact start
 };
 
+/// Errors of the robot's estimates at the record's rows.
 struct RobotEvaluation
 {
-  std::vector<StepError> steps;
-  ErrorSummary all, atScans;
+  std::vector<StepError> steps;  ///< of rows with truth
+  ErrorSummary all;              ///< at every step
+  ErrorSummary atScans;          ///< where landmarks or blobs were looked for
 };
 
 /// Errors in the common frame of steps whose target was last seen `from` to `to` seconds before.
 struct SinceSeen
 {
-  double from = 0, to = 0;  ///< [s]: from <= age < to
-  ErrorSummary errors;
+  double from = 0;      ///< [s]: from <= age < to
+  double to = 0;        ///< [s]
+  ErrorSummary errors;  ///< of these steps
 };
 
+/// Errors of a track, or of all tracks of a true target.
 struct TargetEvaluation
 {
   int id = core::kNoId;          ///< of the track; of the truth in Evaluation::trueTargets
   std::optional<int> truthId;    ///< none: no true target is near, or its identity has no truth
   std::vector<StepError> steps;  ///< in the common frame
-  ErrorSummary all, atScans, atSightings;
+  ErrorSummary all;              ///< at every step with an estimate
+  ErrorSummary atScans;          ///< where landmarks or blobs were looked for
+  ErrorSummary atSightings;      ///< where this target was seen
   /// In the observer's frame, at steps with a sighting: free of the robot's own error; no NEES.
   ErrorSummary relativeAtSightings;
-  std::vector<SinceSeen> sinceSeen;
-  std::optional<double> speedRmse;  ///< [m/s], against the true path over 0.2 s around
+  std::vector<SinceSeen> sinceSeen;  ///< by EvaluationOptions::sinceSeenEdges
+  std::optional<double> speedRmse;   ///< [m/s], against the true path over 0.2 s around
   /// Of each component, in the truth's axes [m/s]: against the true velocity, where truth tells it,
   /// else as the speed.
   std::optional<Vector2> velocityRmse;
@@ -72,30 +78,35 @@ struct TargetEvaluation
   std::optional<double> trackedSinceMoved;
 };
 
+/// A landmark of the map and the true one that it stands for.
 struct LandmarkMatch
 {
-  std::size_t index = 0;  ///< place in Record::landmarks
-  int truthId = 0;
+  std::size_t index = 0;       ///< place in Record::landmarks
+  int truthId = 0;             ///< as in Truth::landmarks
   double error = 0;            ///< [m]
   std::optional<double> nees;  ///< 2 degrees of freedom
 };
 
+/// The map against the true landmarks.
 struct LandmarkEvaluation
 {
-  std::vector<LandmarkMatch> matches;
-  std::optional<int> mapped;    ///< landmarks of the map; none: the filter makes no map
-  std::optional<int> trueOnes;  ///< those that stand for a true one; the rest is false
-  std::optional<int> seen;      ///< true landmarks with a sighting; none: truth doesn't tell
-  std::optional<double> rmse;   ///< [m], over the matches
-  std::optional<double> neesMean;
-  std::optional<Gospa> gospa;
+  std::vector<LandmarkMatch> matches;  ///< by rising `index`
+  std::optional<int> mapped;           ///< landmarks of the map; none: the filter makes no map
+  std::optional<int> trueOnes;         ///< those that stand for a true one; the rest is false
+  std::optional<int> seen;             ///< true landmarks with a sighting; none: truth doesn't tell
+  std::optional<double> rmse;          ///< [m], over the matches
+  std::optional<double> neesMean;      ///< over the matches; 2 expected
+  std::optional<Gospa>
+      gospa;  ///< of the maps as sets of points, cut off at EvaluationOptions::gospaCutoff
 };
 
 /// Landmark sightings by what became of them.  Alignment changes nothing about them.
 struct AssociationCounts
 {
-  std::optional<int> correct, wrong;  ///< paired with a landmark; none without truth
-  int created = 0, rejected = 0;
+  std::optional<int> correct;  ///< paired with the landmark that it is truly of; none without truth
+  std::optional<int> wrong;    ///< paired with another one; none without truth
+  int created = 0;             ///< taken for a new landmark
+  int rejected = 0;            ///< neither paired nor new
   // Without truth 0:
   int sightings = 0;      ///< truly of a landmark
   int founded = 0;        ///< of these, new ones, and the first that were made of their landmark
@@ -114,22 +125,25 @@ struct AssociationCounts
 /// over the scans.
 struct TargetSetErrors
 {
-  int scans = 0;
-  double estimated = 0, truly = 0;                     ///< the sets' sizes
-  double gospa = 0;                                    ///< [m]
-  double localisation = 0, missed = 0, falseOnes = 0;  ///< GOSPA's parts [m²]
-  double ospa = 0;                                     ///< [m]
+  int scans = 0;            ///< that the means are over
+  double estimated = 0;     ///< targets that are tracked
+  double truly = 0;         ///< targets that are there
+  double gospa = 0;         ///< [m]
+  double localisation = 0;  ///< [m²], of pairs: part of GOSPA
+  double missed = 0;        ///< [m²], of true targets without a track: part of GOSPA
+  double falseOnes = 0;     ///< [m²], of tracks without a true target: part of GOSPA
+  double ospa = 0;          ///< [m]
 };
 
 /// What an alignment changes, after rigid ones: free of where a path, or a map, lies as a whole.
 struct RigidEvaluation
 {
-  Pose2D truthFromMap;  ///< of the path, and of the targets with it
-  ErrorSummary robot;
-  std::optional<TargetSetErrors> targetSet;
+  Pose2D truthFromMap;                       ///< of the path, and of the targets with it
+  ErrorSummary robot;                        ///< its path
+  std::optional<TargetSetErrors> targetSet;  ///< none: there are no true targets, or no scans
   /// The map has its own: a path was recorded while the map still drifted.
   Pose2D truthFromLandmarks;
-  LandmarkEvaluation landmarks;
+  LandmarkEvaluation landmarks;  ///< the map
 };
 
 /// Errors of a path over relations, each between two of its poses: free of where the path lies as a
@@ -141,17 +155,18 @@ struct RelationErrors
   std::optional<double> rotationMean;     ///< [rad]
 };
 
+/// All that a run is judged by.
 struct Evaluation
 {
-  Align align = Align::kNone;
-  Pose2D truthFromMap;  ///< takes the map's frame to the truth's
-  RobotEvaluation robot;
+  Align align = Align::kNone;  ///< as it was made, which may be less than what was asked for
+  Pose2D truthFromMap;         ///< takes the map's frame to the truth's
+  RobotEvaluation robot;       ///< its path
   /// One for each track, then, under their own free ids, the true targets that no track stands for.
   std::vector<TargetEvaluation> targets;
   /// One for each true target, over all tracks that stand for it; `id` is the truth's.
   std::vector<TargetEvaluation> trueTargets;
-  std::optional<TargetSetErrors> targetSet;  ///< none: there are no true targets, or no scans
-  LandmarkEvaluation landmarks;
+  std::optional<TargetSetErrors> targetSet;      ///< none: there are no true targets, or no scans
+  LandmarkEvaluation landmarks;                  ///< the map
   std::optional<AssociationCounts> association;  ///< none: the filter pairs nothing
   std::optional<RigidEvaluation> rigid;          ///< none without the robot's truth
   std::optional<RelationErrors> relations;       ///< none: truth has none
@@ -159,9 +174,10 @@ struct Evaluation
   std::optional<ScanMapQuality> scanMap;         ///< none: the record has no scans
 };
 
+/// How a run is to be judged.
 struct EvaluationOptions
 {
-  Align align = Align::kNone;
+  Align align = Align::kNone;   ///< which alignment to make, if the truth allows it
   double landmarkCutoff = 1.0;  ///< a landmark farther than this from any true one is false [m]
   double gospaCutoff = 1.0;     ///< GOSPA's and OSPA's c, of landmarks and of targets [m]
   double targetCutoff = 2.0;    ///< a track whose median error is larger stands for no target [m]

@@ -11,11 +11,12 @@ namespace slamot::eval
 /// García-Fernández, Svensson, "Generalized optimal sub-pattern assignment metric", 2017, prop. 1.
 struct Gospa
 {
-  std::size_t estimated = 0, truly = 0;  ///< the sets' sizes
-  double total = 0;                      ///< [m]: sqrt of the sum of the three
-  double localisation = 0;               ///< [m²]: squared distances of the pairs
-  double missed = 0;                     ///< [m²]: c²/2 for each true point without an estimate
-  double falseOnes = 0;                  ///< [m²]: c²/2 for each estimate without a true point
+  std::size_t estimated = 0;  ///< points estimated
+  std::size_t truly = 0;      ///< points that are there
+  double total = 0;           ///< [m]: sqrt of the sum of the three
+  double localisation = 0;    ///< [m²]: squared distances of the pairs
+  double missed = 0;          ///< [m²]: c²/2 for each true point without an estimate
+  double falseOnes = 0;       ///< [m²]: c²/2 for each estimate without a true point
   /// Places in (estimates, truths), in rising order of the first; no pair is c or more apart.
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   /// [m]: the optimal sub-pattern assignment metric of order 2, which the same pairs make least; 0

@@ -12,6 +12,7 @@ namespace slamot::eval
 class Recorder : public core::Sink
 {
  public:
+  /// What to keep besides poses, targets and pairings.
   struct Options
   {
     bool keepLasers = false;  ///< keep scans, one for each 0.1 m or 5 degrees of motion
@@ -19,6 +20,7 @@ class Recorder : public core::Sink
 
   /// \param filter the one being run: its map and path are asked for once, at the end.
   explicit Recorder(const core::Filter& filter, const Options& options);
+  /// Without scans.
   explicit Recorder(const core::Filter& filter) : Recorder(filter, Options{}) {}
 
   void begin(const core::Estimate& start) override;

@@ -11,9 +11,9 @@ namespace slamot::eval
 /// Whose poses scans are drawn from.
 enum class PosesOf
 {
-  kFilter,  ///< its estimates, each made when its scan came
-  kPath,    ///< as it believes at the end; scans that this has no pose for are left out
-  kOdometry
+  kFilter,   ///< its estimates, each made when its scan came
+  kPath,     ///< as it believes at the end; scans that this has no pose for are left out
+  kOdometry  ///< odometry alone, summed up from the start
 };
 /// The returns of a record's scans, up to 30 m, in map axes [m]; evenly thinned to 200 000.
 [[nodiscard]] std::vector<Point2D> scanPoints(const Record& record, PosesOf poses);
@@ -30,9 +30,10 @@ enum class PosesOf
 /// How sharp a run's scans make a map, beside that of its final path and of odometry alone.
 struct ScanMapQuality
 {
-  std::size_t points = 0;
-  std::optional<double> entropy, odometryEntropy;
-  std::optional<double> pathEntropy;  ///< none: the filter keeps no path
+  std::size_t points = 0;         ///< of the map by the filter's estimates
+  std::optional<double> entropy;  ///< of the map by the filter's estimates; see meanMapEntropy()
+  std::optional<double> odometryEntropy;  ///< of the map by odometry alone
+  std::optional<double> pathEntropy;      ///< none: the filter keeps no path
 };
 /// None of a record without scans.
 [[nodiscard]] std::optional<ScanMapQuality> scanMapQuality(const Record& record);

@@ -14,6 +14,7 @@ class TargetFollower;
 class OdometryTarget : public core::Filter
 {
  public:
+  /// Section `odometry`. \throws core::Error (kConfig)
   OdometryTarget(core::Params& params, const core::FilterContext& context);
   ~OdometryTarget() override;
   core::Update process(const core::Step& step) override;
@@ -29,6 +30,8 @@ class OdometryTarget : public core::Filter
 class TruePoseTarget : public core::Filter
 {
  public:
+  /// Section `true-pose-target`. \throws core::Error (kConfig), also without
+  /// FilterContext::truePose
   TruePoseTarget(core::Params& params, const core::FilterContext& context);
   ~TruePoseTarget() override;
   /// \throws core::Error (kNonsense) where a blob was seen and the true pose isn't known.
@@ -45,6 +48,7 @@ class TruePoseTarget : public core::Filter
 class Independent : public core::Filter
 {
  public:
+  /// Section `independent`, with the keys of `rbpf-slamot`. \throws core::Error (kConfig)
   Independent(core::Params& params, const core::FilterContext& context);
   ~Independent() override;
   core::Update process(const core::Step& step) override;

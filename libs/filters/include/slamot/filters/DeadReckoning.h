@@ -9,6 +9,7 @@ namespace slamot::filters
 class DeadReckoning : public core::Filter
 {
  public:
+  /// Section `dead-reckoning`, which has no keys.
   DeadReckoning(core::Params& params, const core::FilterContext& context);
 
   core::Update process(const core::Step& step) override;

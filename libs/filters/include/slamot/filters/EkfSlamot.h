@@ -13,6 +13,7 @@ namespace slamot::filters
 class EkfSlamot : public core::TeamFilter
 {
  public:
+  /// Section `ekf-slamot`, or `slamot` with its defaults. \throws core::Error (kConfig)
   EkfSlamot(core::Params& params, const core::FilterContext& context);
   ~EkfSlamot() override;
 
@@ -39,7 +40,9 @@ class CentralizedEkf
                  const std::string& mateLabel, const std::vector<int>& mateIds);
   ~CentralizedEkf();
 
+  /// A step of the robot of this index. \throws core::Error as core::Filter::process()
   core::Update process(int robot, const core::Step& step);
+  /// What is believed now, as of the robot of this index: the others are none of its targets.
   [[nodiscard]] core::Estimate estimate(int robot) const;
 
  private:

@@ -13,6 +13,8 @@ namespace slamot::filters
 class RbpfSlamot : public core::TeamFilter
 {
  public:
+  /// Section `rbpf-slamot`, or `fastslam1`, `fastslam2`, `ufastslam`, `gmphd-ufastslam`: the name
+  /// chooses the defaults. \throws core::Error (kConfig)
   RbpfSlamot(core::Params& params, const core::FilterContext& context);
   ~RbpfSlamot() override;
 

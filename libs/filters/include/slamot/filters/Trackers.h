@@ -20,6 +20,7 @@ class Tracker : public core::Filter
   [[nodiscard]] core::Estimate estimate() const override { return estimate_; }
 
  protected:
+  /// `follower` keeps the targets.
   Tracker(const core::FilterContext& context, std::unique_ptr<trackers::Follower> follower);
 
  private:
@@ -33,6 +34,7 @@ class Tracker : public core::Filter
 class ParticleTracker : public Tracker
 {
  public:
+  /// Section `particle-tracker`. \throws core::Error (kConfig)
   ParticleTracker(core::Params& params, const core::FilterContext& context);
 };
 
@@ -44,6 +46,7 @@ class ParticleTracker : public Tracker
 class KalmanTracker : public Tracker
 {
  public:
+  /// Section `kalman-tracker` or `imm-tracker`. \throws core::Error (kConfig)
   KalmanTracker(core::Params& params, const core::FilterContext& context);
 };
 }  // namespace slamot::filters

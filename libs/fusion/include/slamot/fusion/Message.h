@@ -10,7 +10,7 @@
 
 namespace slamot::fusion
 {
-using Bytes = std::vector<std::uint8_t>;
+using Bytes = std::vector<std::uint8_t>;  ///< a message on the wire
 
 inline constexpr int kAll = -1;             ///< receiver of a message that is for everybody
 inline constexpr int kMaxCandidates = 16;   ///< keeps a message within one Ethernet frame
@@ -30,8 +30,8 @@ struct Candidate
 /// What one robot tells the others: of fixed size, whatever its map.
 struct Message
 {
-  int sender = 0;
-  int receiver = kAll;
+  int sender = 0;                 ///< its robot's number
+  int receiver = kAll;            ///< the number of the robot that it is for
   std::uint64_t session = 0;      ///< higher after each start of the sender, such as its clock then
   std::uint64_t sequence = 0;     ///< rises within a session
   std::string frame;              ///< name of the map frame that all robots share

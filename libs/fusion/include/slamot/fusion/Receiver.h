@@ -10,12 +10,12 @@ namespace slamot::fusion
 /// What became of one message, and how.
 struct Receipt
 {
-  Outcome outcome = Outcome::kNothingUsable;
-  int sender = core::kNoId;  ///< as the message says, once its checksum held
+  Outcome outcome = Outcome::kNothingUsable;  ///< what became of it in the end
+  int sender = core::kNoId;                   ///< as the message says, once its checksum held
   int candidate = -1;        ///< place in the message of the sighting taken; -1: none
   int candidatesPassed = 0;  ///< more than one: ambiguous
-  bool targetFused = false;
-  double omega = 1;  ///< weight of one's own estimate
+  bool targetFused = false;  ///< the target's coordinates were in what was fused
+  double omega = 1;          ///< weight of one's own estimate
 };
 
 /// Takes in messages for one robot: decodes, checks, gates and fuses them.  A message does nothing
@@ -31,9 +31,10 @@ struct Receipt
 class Receiver
 {
  public:
+  /// What this robot believes of others.
   struct Options
   {
-    std::string frame = "map";
+    std::string frame = "map";      ///< the map frame that all robots share
     std::set<int> senders;          ///< robots that are heard
     int identity = core::kNoId;     ///< under which sensors know this robot; sightings of another
                                     ///< identity are left out
@@ -44,8 +45,8 @@ class Receiver
     double maxAge = 1;            ///< [s]: older messages are dropped
     double candidateMaxAge = 0.02;  ///< [s]: older sightings of a robot that moves are left out
     double futureTolerance = 0.02;  ///< [s]: of clocks; a message so little ahead is of now
-    MessageLimits limits;
-    core::FusionOptions fusion;
+    MessageLimits limits;           ///< of values that can be true
+    core::FusionOptions fusion;     ///< how what passes is fused
   };
 
   /// \throws core::Error (kConfig) if an option is out of range.
@@ -55,6 +56,7 @@ class Receiver
   /// ahead of it is dropped, so keep it until the step that reaches it.
   Receipt receive(const Bytes& bytes, double now, core::TeamFilter& filter);
 
+  /// Of all messages received so far.
   [[nodiscard]] const MessageCounts& counts() const { return counts_; }
 
  private:

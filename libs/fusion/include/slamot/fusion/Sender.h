@@ -8,14 +8,15 @@ namespace slamot::fusion
 class Sender
 {
  public:
+  /// What this robot tells.
   struct Options
   {
-    std::string frame = "map";        ///< the map frame that all robots share
-    int target = core::kNoId;         ///< the target to tell of
-    std::string mateLabel = "robot";  ///< label of blobs that may be a team mate
-    int maxCandidates = kMaxCandidates;
-    bool tellIdentities = true;  ///< false: as if the sensor couldn't tell mates apart
-    std::uint64_t session = 0;   ///< higher after each start of this robot
+    std::string frame = "map";           ///< the map frame that all robots share
+    int target = core::kNoId;            ///< the target to tell of
+    std::string mateLabel = "robot";     ///< label of blobs that may be a team mate
+    int maxCandidates = kMaxCandidates;  ///< sightings in a message, 0 to kMaxCandidates
+    bool tellIdentities = true;          ///< false: as if the sensor couldn't tell mates apart
+    std::uint64_t session = 0;           ///< higher after each start of this robot
   };
 
   /// \throws core::Error (kConfig) if an option is out of range.

@@ -8,7 +8,7 @@ namespace slamot::fusion
 /// x, y [m], then the target's.
 struct SeenPlace
 {
-  Eigen::VectorXd mean;
+  Eigen::VectorXd mean;         ///< x, y [m], then the target's
   Eigen::MatrixXd cov;          ///< the sender's own errors and the sensor's
   Eigen::MatrixXd independent;  ///< the part of `cov` that is the sensor's noise
 };

@@ -14,6 +14,7 @@ void takeOutMates(core::Step& step, const std::string& label);
 class WithoutMates : public core::Source
 {
  public:
+  /// `source` must outlive this.
   WithoutMates(core::Source& source, std::string label) : source_(&source), label_(std::move(label))
   {
   }

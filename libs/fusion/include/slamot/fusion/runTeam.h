@@ -8,10 +8,10 @@ namespace slamot::fusion
 /// What a team's run needs of one robot.  Without a member it exchanges nothing.
 struct TeamRobot
 {
-  core::Source* source = nullptr;
-  core::Filter* filter = nullptr;
-  Member* member = nullptr;
-  std::vector<core::Sink*> sinks;
+  core::Source* source = nullptr;   ///< its log; never null
+  core::Filter* filter = nullptr;   ///< its estimator; never null
+  Member* member = nullptr;         ///< its part in the exchange; null: none
+  std::vector<core::Sink*> sinks;   ///< where its steps and what it believes go
   std::vector<FusionEvent> events;  ///< filled by the run
   /// If set, gets every step of an instant before any filter does: where robots share a filter that
   /// relates them, all must have moved before one looks.

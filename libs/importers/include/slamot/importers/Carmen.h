@@ -20,7 +20,7 @@ struct CarmenOptions
   double maxRange = 80;             ///< from this on a range is no return [m]
   bool odometryLines = false;       ///< poses from ODOM lines, not from the scans' own messages
 
-  DrivenNoise noise{0.07, math::degToRad(3), 0.05, math::degToRad(4.5), 0.1};
+  DrivenNoise noise{0.07, math::degToRad(3), 0.05, math::degToRad(4.5), 0.1};  ///< of odometry
   std::string relations;  ///< file of reference relations; empty: none
 };
 

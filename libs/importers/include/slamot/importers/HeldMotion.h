@@ -14,6 +14,7 @@ class HeldMotion
   /// An increment in the frame of its start; cut, it is an arc of constant curvature.
   static HeldMotion fromIncrement(const Gaussian<Pose2D>& whole);
 
+  /// The increment over the whole step, in the frame of its start.
   [[nodiscard]] const Gaussian<Pose2D>& whole() const { return whole_; }
 
   /// The increment between two shares of the duration, 0 <= from <= to <= 1, in the frame of its

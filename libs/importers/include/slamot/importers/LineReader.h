@@ -29,6 +29,7 @@ class LineReader
   std::optional<std::string_view> next();
 
   [[nodiscard]] std::size_t number() const { return number_; }  ///< of the last line, from 1
+  /// As it was given.
   [[nodiscard]] const std::string& path() const { return path_; }
   /// Share of the file already read, 0 to 1.
   [[nodiscard]] double progress() const;

@@ -25,8 +25,8 @@ struct MrclamOptions
   double maxStep = 0.1;        ///< [s], of odometry between camera images
   double odometryDelay = 0;    ///< [s], by which motion follows the logged velocity
 
-  WheelNoise wheels{0.007, 0.08, math::degToRad(0.4), 0.15};
-  double rangeStd = 0.05;                   ///< [m], of a landmark close by
+  WheelNoise wheels{0.007, 0.08, math::degToRad(0.4), 0.15};  ///< of odometry
+  double rangeStd = 0.05;                                     ///< [m], of a landmark close by
   double rangeScaleStd = 0.04;              ///< part of the range, added in squares
   double bearingStd = math::degToRad(0.8);  ///< [rad]
 };

@@ -13,10 +13,11 @@ namespace slamot::importers
 /// geometry and noise were measured against the truth; see doc/importing.md.
 struct ScaledCarsOptions
 {
+  /// Where the robot's rate of turn is taken from.
   enum class Heading
   {
-    kImu,
-    kWheels
+    kImu,    ///< its gyroscope, less the bias
+    kWheels  ///< the difference of the front wheels' speeds
   };
   Heading heading = Heading::kImu;  ///< what tells the rate of turn
   double wheelRadius = 0.0312;      ///< of the front wheels, effective [m]
@@ -27,17 +28,18 @@ struct ScaledCarsOptions
   Pose2D mount{-0.12, 0, 0};        ///< of the laser, in the robot's frame
   double laserDelay = 0;            ///< scans were taken this long before their times [s]
   double maxRange = 8;              ///< farther is no return [m]
-  WheelNoise wheels{0.02, 0.02, math::degToRad(0.3), 0.003};
+  WheelNoise wheels{0.02, 0.02, math::degToRad(0.3), 0.003};  ///< of odometry
 
   bool startFromTruth = true;  ///< start in the truth's frame; else at the origin, exactly
   bool targetStarts = false;   ///< tell also where the targets truly start
+  /// What is made of the headings that the motion capture tells.
   enum class TrueHeading
   {
-    kAligned,
-    kLogged,
-    kNone
+    kAligned,  ///< turned by the angle at which cars drive where they head
+    kLogged,   ///< as they are
+    kNone      ///< left out of the truth
   };
-  TrueHeading trueHeading = TrueHeading::kAligned;
+  TrueHeading trueHeading = TrueHeading::kAligned;  ///< which of these
 };
 
 /// Opens one run of the scaled cars: a folder with scan.csv, wheel_speeds.csv and imu.csv and, each

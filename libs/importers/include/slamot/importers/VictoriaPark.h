@@ -12,13 +12,13 @@ namespace slamot::importers
 /// on the log itself, without GPS; see doc/importing.md.
 struct VictoriaParkOptions
 {
-  CarGeometry car;
+  CarGeometry car;            ///< its measures, and where the laser sits
   double steeringOffset = 0;  ///< added to the logged steering [rad]
   double steeringScale = 1;   ///< by which the logged steering is multiplied first
   double laserYaw = 0;        ///< of the laser against the car's x axis, positive to the left [rad]
   double laserDelay = 0;      ///< scans were taken this long before their times [s]
 
-  CarNoise noise{0.03, math::degToRad(1.6), math::degToRad(3), 1};
+  CarNoise noise{0.03, math::degToRad(1.6), math::degToRad(3), 1};  ///< of speed and steering
   double trunkStd = 0.05;                   ///< of a trunk's middle, along and across the ray [m]
   double rangeScaleStd = 0.004;             ///< part of the range, added in squares
   double bearingStd = math::degToRad(0.2);  ///< [rad], added in squares

@@ -10,31 +10,36 @@ namespace slamot::laws
 /// on its own model.
 struct World
 {
-  int steps = 60;
-  double dt = 0.1;                            ///< [s]
-  double speed = 1.0, turnRate = 0.4;         ///< the robot's, as odometry tells [m/s, rad/s]
-  double speedStd = 0.1, turnRateStd = 0.05;  ///< drawn anew each step [m/s, rad/s]
+  int steps = 60;             ///< of odometry
+  double dt = 0.1;            ///< [s]
+  double speed = 1.0;         ///< of the robot, as odometry tells [m/s]
+  double turnRate = 0.4;      ///< of the robot, as odometry tells [rad/s]
+  double speedStd = 0.1;      ///< of the true speed about that, drawn anew each step [m/s]
+  double turnRateStd = 0.05;  ///< of the true turn rate, drawn anew each step [rad/s]
   /// Of a factor on the distance travelled, drawn once a drive, about 1: a systematic error, as of
   /// worn wheels, that the steps do not tell.
   double speedScaleStd = 0;
-  int landmarks = 12;                        ///< uniform in a square about the robot's circle
-  double halfSide = 6.0;                     ///< of that square [m]
-  int scanEvery = 4;                         ///< [steps]
-  double rangeMax = 8.0;                     ///< of the sensor, which sees all round [m]
-  double rangeStd = 0.1, bearingStd = 0.02;  ///< of landmarks and targets [m, rad]
-  bool identities = true;                    ///< whether the sensor tells which landmark it saw
-  int targets = 1;                           ///< labelled `target`, with identities from 0 on
-  double targetSpeed = 0.8, targetTurnRate = 0.2;        ///< known to the filter [m/s, rad/s]
-  double targetSpeedStd = 0.1, targetTurnRateStd = 0.1;  ///< drawn anew each step [m/s, rad/s]
-  double targetStartStd = 0.1;  ///< of the known start's x, y [m] and heading [rad]
+  int landmarks = 12;              ///< uniform in a square about the robot's circle
+  double halfSide = 6.0;           ///< of that square [m]
+  int scanEvery = 4;               ///< [steps]
+  double rangeMax = 8.0;           ///< of the sensor, which sees all round [m]
+  double rangeStd = 0.1;           ///< of sightings of landmarks and targets [m]
+  double bearingStd = 0.02;        ///< of sightings of landmarks and targets [rad]
+  bool identities = true;          ///< whether the sensor tells which landmark it saw
+  int targets = 1;                 ///< labelled `target`, with identities from 0 on
+  double targetSpeed = 0.8;        ///< known to the filter [m/s]
+  double targetTurnRate = 0.2;     ///< known to the filter [rad/s]
+  double targetSpeedStd = 0.1;     ///< about that, drawn anew each step [m/s]
+  double targetTurnRateStd = 0.1;  ///< about that, drawn anew each step [rad/s]
+  double targetStartStd = 0.1;     ///< of the known start's x, y [m] and heading [rad]
 };
 
 /// One drive through a world: what the filter gets, and the truth.
 struct Drive
 {
-  core::Starts starts;
-  std::vector<core::Step> steps;
-  std::vector<Pose2D> robot;                 ///< true pose after each step
+  core::Starts starts;            ///< exact for the robot, with World::targetStartStd for targets
+  std::vector<core::Step> steps;  ///< odometry in each, scans every World::scanEvery
+  std::vector<Pose2D> robot;      ///< true pose after each step
   std::vector<std::vector<Pose2D>> targets;  ///< per step, by identity
 };
 

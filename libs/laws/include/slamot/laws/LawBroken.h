@@ -11,6 +11,7 @@ namespace slamot::laws
 class LawBroken : public std::runtime_error
 {
  public:
+  /// `subject` is what broke them, a filter's or a model's name.
   LawBroken(const std::string& subject, const std::vector<std::string>& lines)
       : std::runtime_error(text(subject, lines))
   {

@@ -7,11 +7,13 @@
 
 namespace slamot::laws
 {
+/// Where a model is tried.
 struct ModelOptions
 {
-  double rangeMin = 0.5, rangeMax = 20.0;  ///< of the points from the robot [m]
-  int samples = 1000;
-  std::uint64_t seed = 1;
+  double rangeMin = 0.5;   ///< least distance of the points from the robot [m]
+  double rangeMax = 20.0;  ///< largest distance of the points from the robot [m]
+  int samples = 1000;      ///< pairs of a pose and a point
+  std::uint64_t seed = 1;  ///< fixes these
 };
 
 namespace detail
@@ -42,8 +44,9 @@ template <class Model>
 class ModelSample
 {
  public:
-  using Z = typename Model::Z;
+  using Z = typename Model::Z;  ///< what the model's sensor tells
 
+  /// Draws the pair, uniform in range, bearing and heading.
   ModelSample(const Model& model, const ModelOptions& options, math::RandomStream& random)
       : model_(model)
   {
@@ -54,6 +57,7 @@ class ModelSample
     point_ = math::transform(pose_, {range * std::cos(bearing), range * std::sin(bearing)});
   }
 
+  /// Whether jacobians() are the derivatives of predict(), by central differences, to 1e-5.
   [[nodiscard]] bool jacobiansAreDerivatives() const
   {
     const auto J = model_.jacobians(pose_, point_);
@@ -68,12 +72,14 @@ class ModelSample
     return true;
   }
 
+  /// Whether invert() of predict() is the point, to 1e-9 m.
   [[nodiscard]] bool invertAfterPredictIsThePoint() const
   {
     const Point2D back = model_.invert(pose_, model_.predict(pose_, point_));
     return std::abs(back.x - point_.x) < 1e-9 && std::abs(back.y - point_.y) < 1e-9;
   }
 
+  /// Whether invertJacobian() is the derivative of invert(), by central differences, to 1e-5.
   [[nodiscard]] bool invertJacobianIsDerivative() const
   {
     const Z z = model_.predict(pose_, point_);

@@ -10,10 +10,12 @@ namespace slamot::laws
 /// to be consistent, and why it is not.
 struct NeesBand
 {
-  double low, high;
+  double low;          ///< least that is accepted
+  double high;         ///< most that is accepted
   std::string reason;  ///< must not be empty
 };
 
+/// What a filter is tried on, and what is known of it.
 struct LawOptions
 {
   World world;     ///< must suit the filter's parameters: its noise is what the filter assumes

@@ -9,14 +9,15 @@ namespace slamot::live
 /// What a robot in lockstep tells of each of its steps, all of it to all.
 struct Announcement
 {
+  /// What it is an announcement of.
   enum class Kind : std::uint8_t
   {
     kHello,  ///< before the first step
     kStep,   ///< a step was taken in; what others say of it was not yet
     kLeft    ///< the robot ends before its log does
   };
-  Kind kind = Kind::kHello;
-  int sender = 0;
+  Kind kind = Kind::kHello;    ///< which of these
+  int sender = 0;              ///< its robot's number
   std::uint64_t session = 0;   ///< higher after each start of the sender
   std::uint64_t sequence = 0;  ///< from 0 on, by one
   double time = 0;             ///< of the step [s]

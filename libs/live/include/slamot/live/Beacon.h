@@ -9,7 +9,7 @@ namespace slamot::live
 /// What a robot tells twice a second: that it is there, and what time it is in its log.
 struct Beacon
 {
-  int sender = 0;
+  int sender = 0;               ///< its robot's number
   std::uint64_t session = 0;    ///< higher after each start of the sender
   double speed = 1;             ///< of the log's clock against the wall's
   std::optional<double> clock;  ///< time in the log [s]; absent: it waits for the team

@@ -22,6 +22,7 @@ class Topic
 {
  public:
   virtual ~Topic() = default;
+  /// To all who listen. \throws core::Error (kLimit) if the network does not take it.
   virtual void publish(const Bytes& packet) = 0;
   /// What has come from others since the last call, each sender's in its order.
   [[nodiscard]] virtual std::vector<Bytes> take() = 0;
@@ -34,6 +35,7 @@ class Network
 {
  public:
   virtual ~Network() = default;
+  /// The topic of this name; all robots of a team give it the same delivery.
   [[nodiscard]] virtual std::unique_ptr<Topic> open(const std::string& name, Delivery delivery) = 0;
   /// Waits until something may have come, at most so long [s].
   virtual void wait(double seconds) = 0;

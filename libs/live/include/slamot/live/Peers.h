@@ -11,9 +11,10 @@ namespace slamot::live
 class Peers
 {
  public:
+  /// What a packet tells of its sender.
   enum class News
   {
-    kNone,
+    kNone,       ///< it is known to be there
     kCame,       ///< heard for the first time, or again after a silence
     kRestarted,  ///< heard with a new session
     kDouble,     ///< another robot has this one's number
@@ -24,6 +25,7 @@ class Peers
   /// \param team numbers of all, this robot's too.
   Peers(int self, std::set<int> team) : self_(self), team_(std::move(team)) {}
 
+  /// Takes in that a packet of this robot and session came at a wall time [s].
   News hear(int sender, std::uint64_t session, double wall);
   /// Whether it is the number of another robot of the team.
   [[nodiscard]] bool isOfTeam(int sender) const

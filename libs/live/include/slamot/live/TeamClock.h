@@ -14,6 +14,7 @@ namespace slamot::live
 class TeamClock
 {
  public:
+  /// When the clock begins, and how fast it goes.
   struct Options
   {
     double zero = 0;                ///< time in the log at the start [s]
@@ -23,6 +24,7 @@ class TeamClock
   /// More than that ahead is no clock of the same team [s].
   static constexpr double kFarthest = 86'400;
 
+  /// `wall` is the wall's time now [s].
   TeamClock(const Options& options, double wall);
 
   /// Time in the log at a wall time [s].

@@ -12,13 +12,14 @@ namespace slamot::live
 /// What both ways of running need to know.
 struct LiveOptions
 {
-  std::set<int> team;         ///< numbers of all, this robot's too
-  std::uint64_t session = 1;  ///< higher after each start of this robot
-  core::RunOptions run;
-  std::function<void(const std::string&)> onNews;            ///< who comes and goes, a line each
+  std::set<int> team;                              ///< numbers of all, this robot's too
+  std::uint64_t session = 1;                       ///< higher after each start of this robot
+  core::RunOptions run;                            ///< progress, and when to stop
+  std::function<void(const std::string&)> onNews;  ///< who comes and goes, a line each
   std::function<void(const fusion::FusionEvent&)> onFusion;  ///< each good message
 };
 
+/// Of a run by the wall's clock.
 struct RealTimeOptions
 {
   double speed = 1;               ///< of the log's clock against the wall's
@@ -28,12 +29,14 @@ struct RealTimeOptions
   double maxAge = 1;                ///< a robot so far behind its clock neither tells nor hears [s]
 };
 
+/// Of a run in lockstep.
 struct LockstepOptions
 {
   double waitS = 60;     ///< waits for the others to be there [s], at most
   double silenceS = 60;  ///< of one who is waited for, after which the run is given up [s]
 };
 
+/// How a live run ended, and who else was there.
 struct LiveResult : core::RunResult
 {
   std::map<int, int> sessionsHeard;  ///< starts of each other robot that were heard

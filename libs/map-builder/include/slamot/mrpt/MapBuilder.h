@@ -35,11 +35,14 @@ class MapBuilder : public ::mrpt::slam::CMetricMapBuilder
   /// Observations alone, odometry among them.  Those of one timestamp are taken together, once one
   /// of another timestamp comes or flush() is called.  \throws as processActionObservation().
   void processObservation(const ::mrpt::obs::CObservation::Ptr& observation);
+  /// Takes in what waited for more of its timestamp.
   void flush();
 
   /// A Gaussian.
   [[nodiscard]] ::mrpt::poses::CPose3DPDF::Ptr getCurrentPoseEstimation() const override;
+  /// Frames with their poses, as the robot was believed to be when they were taken.
   void getCurrentlyBuiltMap(::mrpt::maps::CSimpleMap& out) const override;
+  /// Frames in that simple map.
   unsigned int getCurrentlyBuiltMapSize() override;
   /// As it was after the last step; the pointer stays valid, what it points to changes.
   [[nodiscard]] const ::mrpt::maps::CMultiMetricMap* getCurrentlyBuiltMetricMap() const override;

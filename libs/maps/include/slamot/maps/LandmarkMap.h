@@ -14,13 +14,18 @@ namespace slamot::maps
 /// One landmark of one particle: a Gaussian over its place, in map axes.
 struct Landmark
 {
-  double x = 0, y = 0;               ///< [m]
-  double cxx = 0, cxy = 0, cyy = 0;  ///< [m²]
-  std::uint32_t sightings : 31;      ///< make landmarks by {}: C++17 gives bit fields no default
-  std::uint32_t confirmed : 1;       ///< in an intensity: a feature, not only a component
-  float existence = 0;               ///< log odds that it exists; in an intensity: expected number
+  double x = 0;                  ///< [m]
+  double y = 0;                  ///< [m]
+  double cxx = 0;                ///< variance of x [m²]
+  double cxy = 0;                ///< [m²]
+  double cyy = 0;                ///< variance of y [m²]
+  std::uint32_t sightings : 31;  ///< make landmarks by {}: C++17 gives bit fields no default
+  std::uint32_t confirmed : 1;   ///< in an intensity: a feature, not only a component
+  float existence = 0;           ///< log odds that it exists; in an intensity: expected number
 
+  /// Its mean [m].
   [[nodiscard]] Point2D point() const { return {x, y}; }
+  /// Its covariance [m²].
   [[nodiscard]] Matrix2 cov() const
   {
     Matrix2 c;
@@ -64,6 +69,7 @@ class LandmarkPool
   /// A token that no map had before.
   std::uint64_t newToken() { return ++lastToken_; }
 
+  /// What all nodes take, those that are free again too [bytes].
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -108,12 +114,15 @@ class LandmarkMap
   }
   /// The landmark in a slot for writing; a default one if there was none.
   Landmark& modify(LandmarkPool& pool, int lane, std::uint32_t slot);
+  /// Removes the landmark of a slot, if there is one.
   void erase(LandmarkPool& pool, int lane, std::uint32_t slot);
 
   /// Gives the map a token of its own: nodes shared with other maps are copied when written to.
   void detach(std::uint64_t token) { token_ = token; }
 
+  /// How many landmarks it holds.
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Visits the landmarks by rising slots.
   void visit(const std::function<void(std::uint32_t slot, const Landmark&)>& visitor) const;
 
  private:
@@ -144,10 +153,13 @@ class LandmarkMap
 class LandmarkCollector
 {
  public:
+  /// Begins a collection in the maps of this pool.
   explicit LandmarkCollector(LandmarkPool& pool);
   /// Whether as many nodes were taken since the last collection as lived then, and a few more.
   [[nodiscard]] static bool isDue(const LandmarkPool& pool);
+  /// Says that a map lives, and with it all nodes that it reaches.
   void mark(const LandmarkMap& map);
+  /// Gives back the nodes that no marked map reaches.
   void sweep();
   /// Slots that some marked map holds, by slot.
   [[nodiscard]] const std::vector<bool>& occupied() const { return occupied_; }

@@ -11,8 +11,12 @@ namespace slamot::maps
 /// An axis-aligned box in the plane [m].
 struct Box
 {
-  double xMin = 1e300, yMin = 1e300, xMax = -1e300, yMax = -1e300;
+  double xMin = 1e300;   ///< [m]; as made, the box is empty
+  double yMin = 1e300;   ///< [m]
+  double xMax = -1e300;  ///< [m]
+  double yMax = -1e300;  ///< [m]
 
+  /// Grows the box until the point is in it.
   void include(double x, double y)
   {
     xMin = x < xMin ? x : xMin;
@@ -20,14 +24,18 @@ struct Box
     yMin = y < yMin ? y : yMin;
     yMax = y > yMax ? y : yMax;
   }
+  /// Grows the box until the other one is in it.
   void include(const Box& b)
   {
     if (b.empty()) return;
     include(b.xMin, b.yMin);
     include(b.xMax, b.yMax);
   }
+  /// Whether nothing was included yet.
   [[nodiscard]] bool empty() const { return xMin > xMax; }
+  /// Larger by so much [m] on each side.
   [[nodiscard]] Box grown(double by) const { return {xMin - by, yMin - by, xMax + by, yMax + by}; }
+  /// Whether the two have a point in common; borders count.
   [[nodiscard]] bool overlaps(const Box& b) const
   {
     return xMin <= b.xMax && b.xMin <= xMax && yMin <= b.yMax && b.yMin <= yMax;
@@ -40,6 +48,7 @@ struct SlotExtent
   Box means;              ///< of its means
   double largestVar = 0;  ///< largest eigenvalue of any of its covariances [m²]
 
+  /// One more particle's landmark: its mean, and the larger eigenvalue of its covariance [m²].
   void include(double x, double y, double variance)
   {
     means.include(x, y);
@@ -58,6 +67,7 @@ class SlotIndex
 
   /// A slot that is free; its landmark's number in order of creation comes with serial().
   std::uint32_t reserve();
+  /// Gives a slot back, for reserve() to give out again.
   void release(std::uint32_t slot);
   /// Sets where a reserved slot's landmark is.
   void place(std::uint32_t slot, const SlotExtent& extent);
@@ -69,8 +79,11 @@ class SlotIndex
   /// Releases the placed slots for which occupied[slot] is false.
   void releaseUnoccupied(const std::vector<bool>& occupied);
 
+  /// The number, in order of creation, of the landmark that a slot stands for.
   [[nodiscard]] std::uint32_t serial(std::uint32_t slot) const { return slots_[slot].serial; }
+  /// Where a slot's landmark is, as place() was told.
   [[nodiscard]] const SlotExtent& extent(std::uint32_t slot) const { return slots_[slot].extent; }
+  /// One more than the highest slot ever reserved.
   [[nodiscard]] std::size_t capacity() const { return slots_.size(); }
 
  private:

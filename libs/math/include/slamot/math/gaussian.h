@@ -8,8 +8,10 @@ namespace slamot
 template <class S>
 inline constexpr int kDim = 0;
 template <>
+/// x [m], y [m], phi [rad].
 inline constexpr int kDim<Pose2D> = 3;
 template <>
+/// x, y [m].
 inline constexpr int kDim<Point2D> = 2;
 
 /// A mean and a covariance over the state's coordinates, in the axes that the mean is given in
@@ -17,7 +19,8 @@ inline constexpr int kDim<Point2D> = 2;
 template <class S>
 struct Gaussian
 {
-  S mean{};
+  S mean{};  ///< expected state
+  /// In the same axes; zero: known exactly.
   Eigen::Matrix<double, kDim<S>, kDim<S>> cov = Eigen::Matrix<double, kDim<S>, kDim<S>>::Zero();
 };
 }  // namespace slamot
@@ -41,10 +44,12 @@ namespace slamot::math
 /// Where a Gaussian of two coordinates [m] has one deviation.
 struct Ellipse
 {
-  double longer, shorter;  ///< half axes [m]
-  double direction;        ///< of the longer one [rad]
+  double longer;     ///< half axis [m]
+  double shorter;    ///< half axis [m]
+  double direction;  ///< of the longer one [rad]
 };
-/// Eigen's solver, for this size only, is no formula and takes eight seconds to build.
+/// Of a covariance [m²] symmetric and positive semidefinite. By formula: Eigen's solver for this
+/// size takes eight seconds to build.
 [[nodiscard]] Ellipse ellipse(const Matrix2& cov);
 
 /// Largest difference between a matrix and its transpose.

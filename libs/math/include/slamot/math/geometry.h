@@ -8,20 +8,21 @@
 
 namespace slamot
 {
-/// A pose (x [m], y [m], phi [rad]) and a point (x, y) [m] in the plane: MRPT's own types.
+/// A pose (x [m], y [m], phi [rad]) in the plane: MRPT's own type.
 using Pose2D = ::mrpt::math::TPose2D;
+/// A point (x, y) [m] in the plane: MRPT's own type.
 using Point2D = ::mrpt::math::TPoint2D;
 
-using Vector2 = Eigen::Matrix<double, 2, 1>;
-using Vector3 = Eigen::Matrix<double, 3, 1>;
-using Matrix2 = Eigen::Matrix<double, 2, 2>;
-using Matrix3 = Eigen::Matrix<double, 3, 3>;
+using Vector2 = Eigen::Matrix<double, 2, 1>;  ///< a point, a velocity, a range and bearing
+using Vector3 = Eigen::Matrix<double, 3, 1>;  ///< coordinates (x, y, phi) of a pose
+using Matrix2 = Eigen::Matrix<double, 2, 2>;  ///< a covariance of Vector2
+using Matrix3 = Eigen::Matrix<double, 3, 3>;  ///< a covariance of Vector3
 }  // namespace slamot
 
 namespace slamot::math
 {
-inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr double kTwoPi = 2.0 * kPi;
+inline constexpr double kPi = 3.14159265358979323846;  ///< half a turn [rad]
+inline constexpr double kTwoPi = 2.0 * kPi;            ///< a turn [rad]
 
 /// The same angle in (-pi, pi] [rad].  NaN stays NaN.
 [[nodiscard]] inline double wrapToPi(double angle)
@@ -32,10 +33,12 @@ inline constexpr double kTwoPi = 2.0 * kPi;
   return wrapped <= -kPi ? wrapped + kTwoPi : wrapped;
 }
 
+/// Degrees are for files and people, radians for everything else.
 [[nodiscard]] constexpr double degToRad(double degrees)
 {
   return degrees * (kPi / 180.0);
 }
+/// The inverse of degToRad().
 [[nodiscard]] constexpr double radToDeg(double radians)
 {
   return radians * (180.0 / kPi);

@@ -8,7 +8,9 @@ namespace slamot::math
 /// Sizes of what is told at once: at most a place and a target's six coordinates.  They live on the
 /// stack.
 inline constexpr int kMaxBlock = 8;
-using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxBlock, 1>;
+using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxBlock,
+                                  1>;  ///< of at most kMaxBlock entries
+/// Of at most kMaxBlock rows and columns.
 using BlockMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxBlock, kMaxBlock>;
 
@@ -70,7 +72,7 @@ struct IntersectionUpdate
 /// the paper.
 struct PaperBlock
 {
-  double omega = 1;
+  double omega = 1;         ///< weight of one's own estimate; 1 changes nothing
   BlockVector shift;        ///< to be added to the block's mean
   BlockMatrix cov;          ///< C, the block's new covariance
   BlockMatrix crossFactor;  ///< omega C A⁻¹: left factor of the block's cross-covariances with

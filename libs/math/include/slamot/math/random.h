@@ -15,16 +15,17 @@ namespace slamot::math
 class RandomStream
 {
  public:
-  using result_type = std::uint64_t;
+  using result_type = std::uint64_t;  ///< of UniformRandomBitGenerator: 64 random bits
 
+  /// The stream of these keys; their order counts.
   RandomStream(std::initializer_list<std::uint64_t> keys)
   {
     for (const std::uint64_t key : keys) state_ = mix(state_ ^ mix(key + kStep));
   }
 
-  static constexpr result_type min() { return 0; }
-  static constexpr result_type max() { return ~result_type{0}; }
-  result_type operator()() { return mix(state_ += kStep); }
+  static constexpr result_type min() { return 0; }                ///< of UniformRandomBitGenerator
+  static constexpr result_type max() { return ~result_type{0}; }  ///< of UniformRandomBitGenerator
+  result_type operator()() { return mix(state_ += kStep); }       ///< the next 64 bits
 
   /// Uniform in [0, 1).
   double uniform() { return static_cast<double>((*this)() >> 11) * 0x1.0p-53; }
@@ -51,6 +52,7 @@ class RandomStream
     hasSpare_ = true;
     return u * f;
   }
+  /// Three independent standard normal deviates.
   Vector3 normal3()
   {
     const double a = normal(), b = normal();

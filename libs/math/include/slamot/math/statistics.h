@@ -11,9 +11,12 @@ namespace slamot::math
 /// Mean with the half width of its 95% interval (Student t; 0 for fewer than two values).
 struct MeanInterval
 {
-  double mean = 0, halfWidth95 = 0, std = 0;
-  int count = 0;
+  double mean = 0;         ///< arithmetic; NaN of no values
+  double halfWidth95 = 0;  ///< mean ± this holds the true mean in 95 of 100 samples
+  double std = 0;          ///< of single values, with n - 1
+  int count = 0;           ///< of values
 };
+/// Student's interval of values that are independent and about normal.
 [[nodiscard]] MeanInterval meanInterval(const std::vector<double>& values);
 
 /// The q-quantile (0 to 1) by linear interpolation; NaN if there are no values.

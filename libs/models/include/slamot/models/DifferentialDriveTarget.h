@@ -14,6 +14,7 @@ namespace slamot::models
 class DifferentialDriveTarget
 {
  public:
+  /// What is known of such a target before it is seen.
   struct Params
   {
     double speed;          ///< [m/s] at the start
@@ -24,20 +25,26 @@ class DifferentialDriveTarget
     double turnRateNoise;  ///< [rad/s] drawn anew each step
     double speedWalk;      ///< [m/s per square root of a second]
     double turnRateWalk;   ///< [rad/s per square root of a second]
+    /// Keys target_speed_mps, target_turn_rate_deg_per_s, their _std_, _noise_ and _walk_, as
+    /// config-ini/rbpf-slamot.experiment1.ini has them. \throws core::Error (kConfig)
     static Params from(core::Params& p);
   };
+  /// x, y [m], phi [rad], v [m/s], omega [rad/s], in map axes; and what is known until phi is.
   struct State : TargetState<5>
   {
-    bool headed = true;  // whether phi means something
-    Point2D anchor;      // where a target without heading was first seen
-    Matrix2 anchorCov = Matrix2::Zero();
-    double sinceAnchor = 0;  // [s]
+    bool headed = true;                   ///< whether phi means something
+    Point2D anchor;                       ///< where a target without heading was first seen [m]
+    Matrix2 anchorCov = Matrix2::Zero();  ///< of `anchor` [m²]
+    double sinceAnchor = 0;               ///< since then [s]
   };
   static constexpr int kAngle = 2;  ///< the coordinate that wraps
 
+  /// One model serves all targets.
   explicit DifferentialDriveTarget(const Params& params) : params_(params) {}
 
+  /// A target whose start is known; without heading and velocity it waits for its heading.
   [[nodiscard]] State start(const core::ObjectStart& start) const;
+  /// A target first seen at a place, in map axes; it waits for its heading.
   [[nodiscard]] State birth(const Gaussian<Point2D>& place) const;
   /// Moves the mean on by dt [s]; the covariance is the caller's to move.
   TargetTransition<5> move(State& s, double dt) const;
@@ -47,8 +54,11 @@ class DifferentialDriveTarget
   /// \return whether it gave the target its heading, and so replaced its covariance.
   bool afterCorrection(State& s, const Gaussian<Point2D>* seenAt) const;
 
+  /// Place and heading; the variance of an unknown heading is that of a uniform one at the most.
   [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
+  /// [m/s], in map axes, with its covariance.
   [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
+  /// Place and velocity, with the derivative by the state.
   [[nodiscard]] static Kinematics<4, 5> kinematics(const State& s);
   /// Whether kinematics() means something: not while the target waits for its heading.
   [[nodiscard]] static bool hasVelocity(const State& s) { return s.headed; }

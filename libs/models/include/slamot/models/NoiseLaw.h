@@ -20,23 +20,26 @@ namespace slamot::models
 class NoiseLaw
 {
  public:
+  /// How outliers are spread.
   enum class Tail
   {
-    kStudent,
-    kGaussian,
-    kLaplace
+    kStudent,   ///< Student's t: a power of the distance
+    kGaussian,  ///< one wider Gaussian
+    kLaplace    ///< exponential in the distance
   };
+  /// What a law is made of.
   struct Settings
   {
     double probability;  ///< epsilon
-    Tail tail;
-    double scale;    ///< of the outliers' deviations by those of ordinary errors
-    double freedom;  ///< Student's degrees of freedom
+    Tail tail;           ///< of the outliers
+    double scale;        ///< of the outliers' deviations by those of ordinary errors
+    double freedom;      ///< Student's degrees of freedom
   };
   /// A Gaussian of the sum: N(0, factor R).
   struct Component
   {
-    double weight, factor;
+    double weight;  ///< share of the errors
+    double factor;  ///< of R
   };
 
   /// \throws std::domain_error unless 0 <= probability <= 1, scale > 0 and freedom > 0.
@@ -47,6 +50,7 @@ class NoiseLaw
   static std::shared_ptr<const NoiseLaw> from(core::Params& p, const std::string& prefix,
                                               double otherwise = 0);
 
+  /// As it was made.
   [[nodiscard]] const Settings& settings() const { return settings_; }
   /// By rising factors; the weights' sum is 1.
   [[nodiscard]] const std::vector<Component>& components() const { return components_; }

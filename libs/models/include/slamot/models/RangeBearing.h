@@ -15,7 +15,8 @@ class RangeBearing
   /// Below this range [m] the model is singular: such a sighting must be rejected and counted.
   static constexpr double kSmallestRange = 0.01;
 
-  using Z = Vector2;
+  using Z = Vector2;  ///< range [m], bearing [rad]
+  /// Derivatives of predict() [m, rad].
   struct Jacobians
   {
     Eigen::Matrix<double, 2, 3> pose;  ///< by (x, y, phi)
@@ -24,12 +25,14 @@ class RangeBearing
   /// What a filter needs of one pair of pose and point, computed together.
   struct Expected
   {
-    Z z;
+    Z z;        ///< as predict() has it
     Matrix2 H;  ///< by the point; by the pose's (x, y) it is -H
   };
 
+  /// Standard deviations of the sensor [m, rad].
   RangeBearing(double rangeStd, double bearingStd) : rangeStd_(rangeStd), bearingStd_(bearingStd) {}
 
+  /// What the sensor would tell without noise.
   [[nodiscard]] static Z predict(const Pose2D& pose, const Point2D& point)
   {
     const double dx = point.x - pose.x, dy = point.y - pose.y;
@@ -56,6 +59,7 @@ class RangeBearing
     J << c, -z[0] * s, s, z[0] * c;
     return J;
   }
+  /// Covariance of what it tells: diagonal.
   [[nodiscard]] Matrix2 noise() const
   {
     return Vector2(rangeStd_ * rangeStd_, bearingStd_ * bearingStd_).asDiagonal();

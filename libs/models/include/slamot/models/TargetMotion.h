@@ -16,6 +16,8 @@ using TargetMotion =
 /// Whether a model of motion is a bank of several.
 template <class Motion>
 inline constexpr bool kHasModes = std::is_same_v<Motion, ManoeuvringTarget>;
+/// Reads `target_motion`, or takes `otherwise`, and the keys of that model; those of the others are
+/// left alone. \throws core::Error (kConfig)
 [[nodiscard]] TargetMotion targetMotionFrom(core::Params& p,
                                             const std::string& otherwise = "damped-velocity");
 }  // namespace slamot::models

@@ -10,12 +10,14 @@ namespace slamot::models
 template <int N>
 struct TargetState
 {
-  static constexpr int kSize = N;
+  static constexpr int kSize = N;  ///< coordinates
 
-  Eigen::Matrix<double, N, 1> x = Eigen::Matrix<double, N, 1>::Zero();
-  Eigen::Matrix<double, N, N> P = Eigen::Matrix<double, N, N>::Zero();
+  Eigen::Matrix<double, N, 1> x = Eigen::Matrix<double, N, 1>::Zero();  ///< mean
+  Eigen::Matrix<double, N, N> P = Eigen::Matrix<double, N, N>::Zero();  ///< covariance
 
+  /// Its place [m].
   [[nodiscard]] Point2D point() const { return {x[0], x[1]}; }
+  /// Covariance of its place [m²].
   [[nodiscard]] Matrix2 pointCov() const { return P.template topLeftCorner<2, 2>(); }
 
   /// Kalman update by an innovation nu with covariance S, H its derivative by the place (Mx2).
@@ -39,9 +41,12 @@ struct TargetState
 template <int N>
 struct TargetTransition
 {
-  Eigen::Matrix<double, N, N> F = Eigen::Matrix<double, N, N>::Identity();
-  Eigen::Matrix<double, N, N> Q = Eigen::Matrix<double, N, N>::Zero();
+  Eigen::Matrix<double, N, N> F =
+      Eigen::Matrix<double, N,
+                    N>::Identity();  ///< derivative of the later state by the earlier one
+  Eigen::Matrix<double, N, N> Q = Eigen::Matrix<double, N, N>::Zero();  ///< what is added meanwhile
 
+  /// Moves a covariance on; it comes out symmetric.
   void applyTo(Eigen::Matrix<double, N, N>& P) const
   {
     P = (F * P * F.transpose() + Q).eval();
@@ -53,7 +58,7 @@ struct TargetTransition
 template <int K, int N>
 struct Kinematics
 {
-  Eigen::Matrix<double, K, 1> value;
+  Eigen::Matrix<double, K, 1> value;     ///< x, y [m], vx, vy [m/s] and, with K = 6, ax, ay [m/s²]
   Eigen::Matrix<double, K, N> jacobian;  ///< by the target's state
 };
 

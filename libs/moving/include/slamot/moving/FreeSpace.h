@@ -11,7 +11,7 @@ namespace slamot::moving
 /// What a cell of the plane has been, as far as a laser saw it lately.
 enum class Evidence
 {
-  kUnknown,
+  kUnknown,  ///< not looked at, or not lately
   kFree,     ///< looked through, and nothing stands beside it
   kOccupied  ///< something stands here, or in a neighbouring cell
 };
@@ -21,6 +21,7 @@ enum class Evidence
 class FreeSpace
 {
  public:
+  /// How large cells are, and what is believed of them for how long.
   struct Options
   {
     double cell = 0.1;    ///< [m]

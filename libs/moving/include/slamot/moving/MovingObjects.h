@@ -23,7 +23,9 @@ class MovingObjects
   /// its first sighting on, by its identity.
   explicit MovingObjects(const MovingOptions& options, const core::Starts& starts = {});
   ~MovingObjects();
+  /// What was moved from may only be assigned to or destroyed.
   MovingObjects(MovingObjects&&) noexcept;
+  /// As the constructor.
   MovingObjects& operator=(MovingObjects&&) noexcept;
 
   /// The robot moves by an increment, in its frame, over dt [s]; things move meanwhile.

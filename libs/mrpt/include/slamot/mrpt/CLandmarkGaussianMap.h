@@ -10,7 +10,9 @@
 
 namespace slamot::maps
 {
+/// \cond
 namespace mrpt = ::mrpt;  // MRPT's macros say `mrpt::`, which slamot::mrpt would hide
+/// \endcond
 
 /// A filter's map as MRPT's programs take it: landmarks in the plane, each a Gaussian of its own.
 /// For exchange, pictures and multi-metric maps (`landmarkGaussianMap_count = 1`).  An estimator's
@@ -22,12 +24,13 @@ class CLandmarkGaussianMap : public ::mrpt::maps::CMetricMap
  public:
   static constexpr std::uint32_t kMostLandmarks = 1000000;  ///< in one map, when read back
 
+  /// One landmark of the map.
   struct Landmark
   {
-    std::int32_t id = 0;  ///< its identity, or its number; not negative
-    Gaussian<Point2D> position;
-    std::int32_t sightings = 0;
-    double existence = 1;  ///< probability that it exists; 1: nobody doubts it
+    std::int32_t id = 0;         ///< its identity, or its number; not negative
+    Gaussian<Point2D> position;  ///< in map axes
+    std::int32_t sightings = 0;  ///< how often it was seen
+    double existence = 1;        ///< probability that it exists; 1: nobody doubts it
   };
 
   /// How sightings (CObservationBearingRange) are taken.  From an ini file: section
@@ -41,10 +44,11 @@ class CLandmarkGaussianMap : public ::mrpt::maps::CMetricMap
     /// \throws core::Error of kConfig: unknown key, not a number, out of range; nothing is changed.
     void loadFromConfigFile(const ::mrpt::config::CConfigFileBase& source,
                             const std::string& section) override;
+    /// Writes the keys that loadFromConfigFile() reads.
     void saveToConfigFile(::mrpt::config::CConfigFileBase& target,
                           const std::string& section) const override;
   };
-  TInsertionOptions insertionOptions;
+  TInsertionOptions insertionOptions;  ///< how insertObservation() and likelihoods pair and weigh
 
   /// The map of a filter; its landmarks are confirmed ones, so their existence is 1.
   [[nodiscard]] static CLandmarkGaussianMap fromView(const core::LandmarkView& view);
@@ -58,7 +62,9 @@ class CLandmarkGaussianMap : public ::mrpt::maps::CMetricMap
   /// with a negative eigenvalue, an existence outside [0, 1].
   void set(const Landmark& landmark);
 
+  /// Whether it has no landmark.
   bool isEmpty() const override { return landmarks_.empty(); }
+  /// How many landmarks it has, in words.
   std::string asString() const override;
 
   /// Writes `<prefix>_landmarks.csv`: id,x,y,cxx,cxy,cyy,sightings,existence [m, m²].

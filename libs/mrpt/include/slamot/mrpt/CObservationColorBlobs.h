@@ -11,7 +11,9 @@
 
 namespace slamot::obs
 {
+/// \cond
 namespace mrpt = ::mrpt;  // MRPT's macros say `mrpt::`, which slamot::mrpt would hide
+/// \endcond
 
 // MRPT's Visualizable has a public destructor that is not virtual; nobody deletes through it.
 #pragma GCC diagnostic push
@@ -28,6 +30,7 @@ class CObservationColorBlobs : public ::mrpt::obs::CObservation, public slamot_v
   static constexpr std::uint32_t kMostBlobs = 10000;   ///< in one observation, when read back
   static constexpr std::uint32_t kLongestLabel = 255;  ///< [bytes]
 
+  /// One patch of a known colour.
   struct Blob
   {
     std::string label;            ///< what the colour stands for: "target", "robot", ...
@@ -48,20 +51,27 @@ class CObservationColorBlobs : public ::mrpt::obs::CObservation, public slamot_v
     bool cut = false;             ///< by the image's edge: part of the thing may be outside
   };
 
-  ::mrpt::poses::CPose3D sensorPoseOnRobot;
-  double rangeMin = 0, rangeMax = 1e6;  ///< where a blob is detected [m]
-  double bearingMin = -3.14159265358979323846, bearingMax = 3.14159265358979323846;      ///< [rad]
-  double elevationMin = -1.57079632679489661923, elevationMax = 1.57079632679489661923;  ///< [rad]
-  std::vector<Blob> blobs;
+  ::mrpt::poses::CPose3D sensorPoseOnRobot;       ///< its x axis is the line of sight
+  double rangeMin = 0;                            ///< where a blob is detected [m]
+  double rangeMax = 1e6;                          ///< [m]
+  double bearingMin = -3.14159265358979323846;    ///< field of view [rad]
+  double bearingMax = 3.14159265358979323846;     ///< [rad]
+  double elevationMin = -1.57079632679489661923;  ///< field of view [rad]
+  double elevationMax = 1.57079632679489661923;   ///< [rad]
+  std::vector<Blob> blobs;                        ///< empty: it looked and saw none
 
   SLAMOT_GET_SENSOR_POSE(sensorPoseOnRobot)
+  /// Of the sensor, in the robot's frame.
   void setSensorPose(const ::mrpt::poses::CPose3D& pose) override { sensorPoseOnRobot = pose; }
 
+  /// What RawLogViewer prints beside it.
   void getDescriptionAsText(std::ostream& o) const override;
 
   /// rawlog-edit --export-txt: one row an observation; the blobs' columns repeat for each blob.
   bool exportTxtSupported() const override { return true; }
+  /// Names of the columns, for one blob.
   std::string exportTxtHeader() const override;
+  /// The columns of this observation.
   std::string exportTxtDataRow() const override;
 
   /// What RawLogViewer shows: the sensor, ranged blobs as balls, others as rays.

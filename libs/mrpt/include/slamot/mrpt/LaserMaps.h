@@ -13,7 +13,8 @@ struct PosedScans
 {
   double time = 0;         ///< [s]
   Gaussian<Pose2D> robot;  ///< in map axes
-  std::vector<std::shared_ptr<const core::LaserScan>> scans;
+  std::vector<std::shared_ptr<const core::LaserScan>>
+      scans;  ///< of all lasers at that instant; never null
 };
 
 /// Writes the scans and their poses as MRPT's simple map, from which its tools make maps of any

@@ -12,9 +12,12 @@ namespace slamot::mrpt
 class LiveScene
 {
  public:
+  /// `title` is drawn above the scene.
   explicit LiveScene(std::string title);
 
+  /// The belief before the first step.
   void begin(const core::Estimate& start) { addEstimate(start); }
+  /// A step, and what was believed after it.
   void add(const core::Step& step, const core::Update& update);
   /// All so far.  \param now after the newest step: its map is read.
   [[nodiscard]] SceneData at(const core::Estimate& now,

@@ -29,6 +29,7 @@ class LiveSteps
   // \throws core::Error: kNonsense on values that make no sense, or time that goes backwards;
   // kConfig if nobody tells the odometry's covariance.  What is wrong is left out; steps that were
   // complete before it are not lost: complete(), or the next call, returns them.
+  /// A pair: how the robot moved, and what it then saw.
   std::vector<core::Step> add(const ::mrpt::obs::CActionCollection& actions,
                               const ::mrpt::obs::CSensoryFrame& frame);
   /// Consecutive observations of one timestamp are a step: complete once one of another comes.

@@ -36,11 +36,12 @@ class RawlogSource : public core::Source
     static SensorDeviations from(core::Params& p);
   };
 
+  /// How a log is to be read.
   struct Options
   {
-    core::OdometryModel odometry;
-    bool salvage = false;  ///< deliver the intact first part of a truncated log, then say so
-    SensorDeviations sensor;
+    core::OdometryModel odometry;  ///< how uncertain its odometry is
+    bool salvage = false;        ///< deliver the intact first part of a truncated log, then say so
+    SensorDeviations sensor;     ///< of landmark sightings without deviations
     double stepPeriod = 0;       ///< in place of the log's times; 0: those [s]
     bool useFirstFrame = false;  ///< of a log that begins with a frame
     /// Sections [odometer], [sensor] and [log].

@@ -18,6 +18,7 @@ namespace slamot::mrpt
 class RawlogWriter
 {
  public:
+  /// MRPT's two kinds of rawlog.
   enum class Format
   {
     kActionFrames,  ///< pairs of CActionCollection and CSensoryFrame: keeps odometry's covariance

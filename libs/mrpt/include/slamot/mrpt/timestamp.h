@@ -9,7 +9,7 @@ namespace slamot::mrpt
 {
 /// MRPT counts 100 ns ticks from 1601; this many lie before the Unix epoch.
 inline constexpr std::int64_t kTicksBefore1970 = 116444736000000000;
-inline constexpr double kTicksPerSecond = 1e7;
+inline constexpr double kTicksPerSecond = 1e7;  ///< of 100 ns
 
 /// Seconds since the Unix epoch; a time of at most seven decimals comes back exactly.
 [[nodiscard]] inline ::mrpt::system::TTimeStamp toTimestamp(double seconds)

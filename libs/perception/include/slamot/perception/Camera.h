@@ -10,15 +10,20 @@ namespace slamot::perception
 /// A pinhole camera with lens distortion, in OpenCV's terms; its axes: z ahead, x right, y down.
 struct Camera
 {
+  /// How the lens distorts, and what the numbers of `distortion` are.
   enum class Lens
   {
     kRadialTangential,  ///< k1 k2 p1 p2 k3 k4 k5 k6 ("plumb bob", rational)
     kFisheye            ///< k1 k2 k3 k4 (Kannala and Brandt)
   };
-  int width = 0, height = 0;              ///< that the numbers below are of [pixel]
-  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< [pixel]
-  Lens lens = Lens::kRadialTangential;
-  std::array<double, 8> distortion{};
+  int width = 0;                        ///< of images that the numbers below are of [pixel]
+  int height = 0;                       ///< [pixel]
+  double fx = 0;                        ///< focal length [pixel]
+  double fy = 0;                        ///< focal length [pixel]
+  double cx = 0;                        ///< principal point, from the first pixel's middle [pixel]
+  double cy = 0;                        ///< [pixel]
+  Lens lens = Lens::kRadialTangential;  ///< which of these
+  std::array<double, 8> distortion{};   ///< in the order of Lens; zeros: none
 
   /// The same camera for images of another size.
   [[nodiscard]] Camera scaledTo(int columns, int rows) const;
@@ -28,8 +33,10 @@ struct Camera
   /// Where a pixel's ray goes: bearing positive to the left, elevation positive upwards [rad].
   struct Direction
   {
-    double bearing = 0, elevation = 0;
+    double bearing = 0;    ///< [rad], positive to the left
+    double elevation = 0;  ///< [rad], positive upwards
   };
+  /// The direction of a pixel, its distortion undone.
   [[nodiscard]] Direction direction(const cv::Point2d& pixel) const;
   /// The pixel of a direction less than a right angle off the axis.
   [[nodiscard]] cv::Point2d pixel(const Direction& d) const;
@@ -54,9 +61,11 @@ struct BlobNoise
 /// A direction with its standard deviations [rad], from the blob's centre and the camera.
 struct SeenDirection
 {
-  Camera::Direction at;
-  double bearingStd = 0, elevationStd = 0;
+  Camera::Direction at;     ///< from the camera's axis
+  double bearingStd = 0;    ///< [rad]
+  double elevationStd = 0;  ///< [rad]
 };
+/// Where a blob's centre is seen, and how surely.
 [[nodiscard]] SeenDirection directionOf(const ImageBlob& blob, const Camera& camera,
                                         const BlobNoise& noise);
 }  // namespace slamot::perception

@@ -23,8 +23,10 @@ struct ImageBlob
 class ColorDetector
 {
  public:
+  /// One detector looks for all classes of a camera.
   explicit ColorDetector(std::vector<ColorClass> classes);
 
+  /// As they were given; ImageBlob::colorClass counts them.
   [[nodiscard]] const std::vector<ColorClass>& classes() const { return classes_; }
 
   /// Largest first within each class.  Grey images hold no colour, an empty one nothing at all.

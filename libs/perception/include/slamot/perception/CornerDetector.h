@@ -12,8 +12,9 @@ struct LineOptions
   double mostOff = 0.1;      ///< of a return from its line [m]; five deviations part no wall
   int leastPoints = 6;       ///< on a line
   double leastLength = 0.4;  ///< [m]
-  double sharpest = 0.7853981633974483, flattest = 2.356194490192345;  ///< a corner's angle [rad]
-  double maxRange = 20;                                                ///< of a corner [m]
+  double sharpest = 0.7853981633974483;  ///< least angle of a corner [rad]
+  double flattest = 2.356194490192345;   ///< largest angle of a corner [rad]
+  double maxRange = 20;                  ///< of a corner [m]
 
   /// Keys max_off_m, min_points, min_length_m, min_angle_deg, max_angle_deg, max_range_m.
   static LineOptions from(core::Params& p);
@@ -22,11 +23,13 @@ struct LineOptions
 /// A straight wall as it is seen: the line through its returns, by total least squares.
 struct LineSegment
 {
-  Point2D from, to;           ///< ends, in the robot's frame, in the order of rising angle [m]
-  Point2D middle, direction;  ///< mean of its returns; from `from` to `to`, of length 1
-  double offsetStd = 0;       ///< of the middle, across the line [m]
-  double angleStd = 0;        ///< [rad]
-  int points = 0;
+  Point2D from;          ///< its end at the lesser angle, in the robot's frame [m]
+  Point2D to;            ///< its other end, in the robot's frame [m]
+  Point2D middle;        ///< mean of its returns, in the robot's frame [m]
+  Point2D direction;     ///< from `from` to `to`, of length 1
+  double offsetStd = 0;  ///< of the middle, across the line [m]
+  double angleStd = 0;   ///< [rad]
+  int points = 0;        ///< returns on it
 
   /// Standard deviation across the line, `along` from its middle [m].
   [[nodiscard]] double stdAt(double along) const;
@@ -41,6 +44,7 @@ struct LineSegment
 class CornerDetector : public LandmarkDetector
 {
  public:
+  /// `laser` tells how far returns err.
   CornerDetector(const LineOptions& options, const LaserOptions& laser)
       : options_(options), laser_(laser)
   {

@@ -1,5 +1,8 @@
 #pragma once
 
+/// \file
+/// Landmark detectors, their registry, and SLAMOT_REGISTER_LANDMARK_DETECTOR for plugins.
+
 #include <slamot/core/Config.h>
 #include <slamot/math/gaussian.h>
 #include <slamot/perception/LaserClusters.h>
@@ -36,12 +39,15 @@ class LandmarkDetector
 class LandmarkDetectorRegistry
 {
  public:
+  /// Makes a detector from its section of the config.
   using Factory =
       std::function<std::unique_ptr<LandmarkDetector>(core::Params&, const LaserOptions&)>;
 
+  /// The one of this process, for the program and every plugin that it loads.
   static LandmarkDetectorRegistry& instance();
   /// As for filters, a name that comes twice is an error of make().
   void add(const std::string& name, Factory factory);
+  /// In alphabetical order.
   [[nodiscard]] std::vector<std::string> names() const;
   /// With the config's section of that name.  \throws core::Error (kConfig).
   [[nodiscard]] std::unique_ptr<LandmarkDetector> make(const std::string& name,

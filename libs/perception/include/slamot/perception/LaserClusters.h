@@ -22,7 +22,8 @@ struct Cluster
   std::vector<ScanPoint> points;  ///< by rising angle
   /// Whether what lies beside it is farther away, so that its end is the thing's own: false where
   /// something nearer hides the rest, or the scan ends.
-  bool freeRight = false, freeLeft = false;
+  bool freeRight = false;
+  bool freeLeft = false;  ///< the same of its left end
 
   /// Between its first and last point [m].
   [[nodiscard]] double width() const;
@@ -39,6 +40,7 @@ struct LaserOptions
 
   /// Keys range_std_m, max_range_m, jump_m, flattest_deg.
   static LaserOptions from(core::Params& p, const LaserOptions& otherwise);
+  /// The same with the defaults above.
   static LaserOptions from(core::Params& p) { return from(p, {}); }
 };
 

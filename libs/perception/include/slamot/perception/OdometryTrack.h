@@ -19,6 +19,7 @@ class OdometryTrack
   [[nodiscard]] Pose2D between(double a, double b) const { return math::between(at(a), at(b)); }
   /// Keeps what is needed from this time on.
   void forgetBefore(double time);
+  /// The newest pose that was added.
   [[nodiscard]] const Pose2D& last() const { return last_; }
 
  private:

@@ -8,9 +8,10 @@ namespace slamot::perception
 /// What round things are to look like.
 struct RoundOptions
 {
-  Roundness roundness;
-  double least = 0.02, most = 0.3;  ///< radius [m]
-  int leastPoints = 3;
+  Roundness roundness;    ///< of the radius, before it is seen
+  double least = 0.02;    ///< radius of what is kept [m]
+  double most = 0.3;      ///< radius of what is kept [m]
+  int leastPoints = 3;    ///< returns on it
   double maxRange = 20;   ///< [m]
   double mostMisfit = 4;  ///< see CircleFit::misfit
 
@@ -25,6 +26,7 @@ struct RoundOptions
 class RoundDetector : public LandmarkDetector
 {
  public:
+  /// `laser` tells how far returns err.
   RoundDetector(const RoundOptions& options, const LaserOptions& laser)
       : options_(options), laser_(laser)
   {

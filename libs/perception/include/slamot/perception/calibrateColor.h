@@ -11,7 +11,7 @@ namespace slamot::perception
 /// A range proposed for an object, and how well it tells it from the rest of the image.
 struct ColorProposal
 {
-  HsvRange range;
+  HsvRange range;    ///< that tells it best
   double found = 0;  ///< part of the object's pixels that lie in the range [0 to 1]
   double stray = 0;  ///< part of the range's pixels that lie outside the box [0 to 1]
 };

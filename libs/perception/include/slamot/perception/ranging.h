@@ -15,17 +15,18 @@ struct Gaze
 /// How a blob gets its range from the laser.
 struct RangingOptions
 {
+  /// What is done with a blob that several things may be of.
   enum class Ambiguous
   {
     kRefuse,   ///< the bearing alone is kept
     kNearest,  ///< what is behind is hidden
     kKeep      ///< one blob for each
   };
-  Roundness object{0.2, 0.05};  ///< the thing's outline: its colour's
-  double gate = 3;              ///< deviations between blob and object
-  int leastPoints = 2;
-  double mostMisfit = 25;  ///< see CircleFit::misfit: things are seldom round
-  Ambiguous ambiguous = Ambiguous::kRefuse;
+  Roundness object{0.2, 0.05};               ///< the thing's outline: its colour's
+  double gate = 3;                           ///< deviations between blob and object
+  int leastPoints = 2;                       ///< of the laser on the thing
+  double mostMisfit = 25;                    ///< see CircleFit::misfit: things are seldom round
+  Ambiguous ambiguous = Ambiguous::kRefuse;  ///< which of these
 
   /// Keys gate_sigmas, min_points, max_misfit, ambiguous (refuse, nearest,
   /// keep).
@@ -35,10 +36,12 @@ struct RangingOptions
 /// A thing that a blob may be of.
 struct RangedObject
 {
-  Gaussian<Point2D> center;        ///< in the robot's frame: the laser's, and the camera's bearing
-  double range = 0, rangeStd = 0;  ///< from the camera [m]
-  double bearing = 0, bearingStd = 0;  ///< seen from the camera, from the robot's heading [rad]
-  std::size_t cluster = 0;
+  Gaussian<Point2D> center;  ///< in the robot's frame: the laser's, and the camera's bearing
+  double range = 0;          ///< from the camera [m]
+  double rangeStd = 0;       ///< [m]
+  double bearing = 0;        ///< seen from the camera, from the robot's heading [rad]
+  double bearingStd = 0;     ///< [rad]
+  std::size_t cluster = 0;   ///< its place in the list
 };
 
 /// The things among a laser's clusters that a blob may be of, nearest first: whose centre lies in

@@ -12,14 +12,15 @@ namespace slamot::reproduce
 struct Term
 {
   std::string metric;  ///< as study::metrics() names them, or cpu_s: the CPU time of a run [s]
-  std::string method;
+  std::string method;  ///< of the study, by its name
   std::map<std::string, std::string> cell;  ///< axes by name, values as shown
-  bool isTakenAway = false;
+  bool isTakenAway = false;                 ///< follows a minus sign
 };
 
 /// What a number is held against.
 struct Bound
 {
+  /// How the number and the bound are compared.
   enum class Kind
   {
     kBelow,            ///< `< high`
@@ -29,9 +30,10 @@ struct Bound
     kAtMostPublished,  ///< `<= published`
     kAtLeastPublished  ///< `>= published`
   };
-  Kind kind = Kind::kBelow;
-  double low = 0, high = 0;
-  double published = 0;
+  Kind kind = Kind::kBelow;         ///< which of these
+  double low = 0;                   ///< of kAbove and kBetween
+  double high = 0;                  ///< of kBelow and kBetween
+  double published = 0;             ///< of the others: the mean that the paper gives
   std::optional<double> deviation;  ///< `+- deviation`, as published: of its runs
   std::optional<int> runs;          ///< `of runs runs`: that it is a mean of
 };
@@ -43,9 +45,10 @@ struct Bound
 ///     (a(x) - b(x)) / (a(y) - b(y)) in 0.9 .. 1.1
 struct Condition
 {
-  std::vector<Term> sum, divisor;
-  Bound bound;
-  std::string text;  ///< as written
+  std::vector<Term> sum;      ///< never empty
+  std::vector<Term> divisor;  ///< empty: the sum itself is looked at
+  Bound bound;                ///< what the number must meet
+  std::string text;           ///< as written
 };
 
 /// \throws std::invalid_argument saying what is wrong with it.

@@ -11,28 +11,30 @@ namespace slamot::reproduce
 /// A study of a paper, laid out; sections of the same paper that ask for the same share it.
 struct StudyRun
 {
-  std::string folder;  ///< within that of the reproduction
-  std::vector<std::string> set;
-  std::unique_ptr<study::Plan> plan;
-  study::Outcome outcome;  ///< once collected
+  std::string folder;                 ///< within that of the reproduction
+  std::vector<std::string> set;       ///< what its sections change in the study, as by --set
+  std::unique_ptr<study::Plan> plan;  ///< its cells and runs
+  study::Outcome outcome;             ///< once collected
 };
 
 /// A picture of one run, as drawn: one or two SVG images side by side, or why there is none.
 struct Drawn
 {
-  std::vector<std::pair<std::string, std::string>> titlesAndImages;
-  std::string missing;
+  std::vector<std::pair<std::string, std::string>>
+      titlesAndImages;  ///< images are SVG; empty: there is none
+  std::string missing;  ///< why there is none; else empty
 };
 
 /// Papers with their studies: laid out, run by study::execute(), collected, and shown as one page.
 class Reproduction
 {
  public:
+  /// As PaperSpec::Options.
   struct Options
   {
-    bool isQuick = false;
-    std::vector<std::string> set;
-    std::optional<std::uint64_t> firstSeed;
+    bool isQuick = false;                    ///< see PaperSpec::Options
+    std::vector<std::string> set;            ///< Section.key=value, as of --set
+    std::optional<std::uint64_t> firstSeed;  ///< see PaperSpec::Options
   };
 
   /// Lays out all studies of the papers that a name stands for, see paperFiles().
@@ -54,10 +56,15 @@ class Reproduction
   /// \throws core::Error (kUnreadable) if a file can't be written.
   [[nodiscard]] std::string publish(const std::string& folder) const;
 
+  /// Whether seeds and cells are those of a quick reproduction.
   [[nodiscard]] bool isQuick() const { return isQuick_; }
+  /// As it was asked for: a paper's, or a list's.
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Of the page.
   [[nodiscard]] const std::string& title() const { return title_; }
+  /// In the order of the page.
   [[nodiscard]] const std::vector<PaperSpec>& papers() const { return papers_; }
+  /// In the order in which papers ask for them; none twice in a paper.
   [[nodiscard]] const std::vector<StudyRun>& studies() const { return studies_; }
   /// A section's study; null if it has none, or is left out.
   [[nodiscard]] const StudyRun* studyOf(std::size_t paper, std::size_t section) const;
@@ -65,6 +72,7 @@ class Reproduction
   [[nodiscard]] const std::vector<Drawn>& picturesOf(std::size_t paper, std::size_t section) const;
   /// Runs that are missing, and that failed.
   [[nodiscard]] std::size_t missing() const;
+  /// Runs that threw.
   [[nodiscard]] std::size_t failed() const;
 
  private:

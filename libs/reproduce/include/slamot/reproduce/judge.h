@@ -18,27 +18,29 @@ enum class Status
 /// A condition in one cell, with the numbers that decided.
 struct Check
 {
-  std::string what;      ///< what was measured
-  std::string measured;  ///< with its interval
-  std::string claimed;   ///< what it is held against
-  std::string remark;    ///< how far off, if it is
-  Status status = Status::kNotRun;
+  std::string what;                 ///< what was measured
+  std::string measured;             ///< with its interval
+  std::string claimed;              ///< what it is held against
+  std::string remark;               ///< how far off, if it is
+  Status status = Status::kNotRun;  ///< what became of it
 };
 
+/// What becomes of a claim.
 enum class Verdict
 {
-  kHolds,
-  kInPart,
-  kDoesNotHold,
-  kNotTestable,
-  kNotRun  ///< left out of the quick reproduction, or its runs are missing
+  kHolds,        ///< every condition is met
+  kInPart,       ///< some are met, or the runs do not decide
+  kDoesNotHold,  ///< no condition is met, and none is open
+  kNotTestable,  ///< Claim::untestable says why
+  kNotRun        ///< left out of the quick reproduction, or its runs are missing
 };
 
+/// A verdict and what it rests on.
 struct Judgement
 {
-  Verdict verdict = Verdict::kNotRun;
-  bool isUndecided = false;  ///< in part only because nothing was decided
-  std::vector<Check> checks;
+  Verdict verdict = Verdict::kNotRun;  ///< in short
+  bool isUndecided = false;            ///< in part only because nothing was decided
+  std::vector<Check> checks;           ///< one for each condition and cell
 };
 
 /// Judges a claim by its study's records; nothing else enters the verdict.  All conditions met: it

@@ -14,8 +14,10 @@ namespace slamot::results
 class CsvText
 {
  public:
+  /// Begins with a line of the columns' names.
   explicit CsvText(const std::string& header) : text_(header + "\n") {}
 
+  /// A number. \throws core::Error (kInternal) if it is not finite.
   CsvText& add(double v)
   {
     if (!std::isfinite(v))
@@ -24,7 +26,9 @@ class CsvText
     char digits[40];
     return raw({digits, std::to_chars(digits, digits + sizeof digits, v + 0.0).ptr});  // no "-0"
   }
+  /// A whole number.
   CsvText& add(int v) { return raw(std::to_string(v)); }
+  /// Nine fields: x, y, phi, then the covariance's upper triangle by rows.
   CsvText& add(const Gaussian<Pose2D>& g)
   {
     add(g.mean.x).add(g.mean.y).add(g.mean.phi);
@@ -42,8 +46,11 @@ class CsvText
         v.begin(), v.end(), [](unsigned char c) { return c < ' ' || c == ',' || c == '"'; }, '_');
     return raw(v);
   }
+  /// An empty field: not known.
   CsvText& nothing() { return raw(""); }
+  /// Ends the row; the next add() begins another one.
   void endRow() { text_.back() = '\n'; }
+  /// All so far.
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:

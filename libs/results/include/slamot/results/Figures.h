@@ -8,7 +8,7 @@ namespace slamot::results
 /// A run with what is known of it; all three must outlive the view.
 struct RunView
 {
-  const eval::Record& record;
+  const eval::Record& record;          ///< whole
   const eval::Truth& truth;            ///< may be empty
   const eval::Evaluation& evaluation;  ///< of this record against this truth
 };

@@ -4,10 +4,11 @@
 
 namespace slamot::results
 {
+/// What gnuplot draws to.
 enum class PictureFormat
 {
-  kSvg,
-  kPng  ///< at twice the figure's size
+  kSvg,  ///< text; see inlineSvg()
+  kPng   ///< at twice the figure's size
 };
 
 /// The gnuplot commands, data included, that draw a figure.  Data is thinned to what the picture's

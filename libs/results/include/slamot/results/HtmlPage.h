@@ -11,8 +11,8 @@ namespace slamot::results
 /// A table's cells as text; the first column names the rows.
 struct Table
 {
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> header;             ///< names of the columns
+  std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
 /// A text as HTML shows it literally.
@@ -23,15 +23,21 @@ struct Table
 class HtmlPage
 {
  public:
+  /// The subtitle stands below the title, in smaller print.
   HtmlPage(const std::string& title, const std::string& subtitle);
 
   void banner(const std::string& text);  ///< what no reader may overlook
+  /// Of a chapter; `id` is what links to it say after `#`, empty: nothing links.
   void heading(const std::string& text, const std::string& id = {});
+  /// Of a part of a chapter; `id` as for heading().
   void subheading(const std::string& text, const std::string& id = {});
+  /// Text that runs on.
   void paragraph(const std::string& text);
+  /// Numbers to the right; the table scrolls by itself where the page is narrow.
   void table(const Table& table);
   /// A list of links to files beside the page, by their paths from there.
   void links(const std::vector<std::pair<std::string, std::string>>& textsAndPaths);
+  /// Text in a box, in fixed width, its line breaks kept.
   void preformatted(const std::string& text);
   /// A plot with a caption.  Where gnuplot fails the page says so in its place, and goes on.
   void figure(const std::string& caption, const Figure& figure);
@@ -42,6 +48,7 @@ class HtmlPage
 
   /// What there is no word for here: HTML that has its text escaped, and style sheets for it.
   void markup(const std::string& html) { body_ += html; }
+  /// Adds CSS rules to the page's own.
   void style(const std::string& css) { style_ += css; }
 
   /// The whole page.

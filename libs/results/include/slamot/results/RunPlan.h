@@ -12,18 +12,18 @@ namespace slamot::results
 /// What a config asks for on one log.
 struct RunPlan
 {
-  std::string method;
-  std::uint64_t seed = 1;
-  core::Starts starts;
-  eval::Align align = eval::Align::kNone;
-  Point2D leverArm{0, 0};  ///< see eval::EvaluationOptions
+  std::string method;                      ///< name of the filter
+  std::uint64_t seed = 1;                  ///< that it draws by
+  core::Starts starts;                     ///< where robot and targets start
+  eval::Align align = eval::Align::kNone;  ///< how the result is laid over the truth
+  Point2D leverArm{0, 0};                  ///< see eval::EvaluationOptions
 };
 
 /// Keys `seed` and `align` of [run].
 struct SeedAndAlign
 {
-  std::uint64_t seed = 1;
-  eval::Align align = eval::Align::kNone;
+  std::uint64_t seed = 1;                  ///< that the filter draws by
+  eval::Align align = eval::Align::kNone;  ///< how the result is laid over the truth
 };
 
 /// Unless [run] says otherwise, results are not aligned where starts were given, else by the first

@@ -12,6 +12,7 @@ namespace slamot::results
 class StepTimer : public core::Source, public core::Sink
 {
  public:
+  /// The clock runs from here on; `source` must outlive this.
   explicit StepTimer(core::Source& source);
 
   std::optional<core::Step> next() override;

@@ -11,18 +11,20 @@ namespace slamot::results
 /// What a run took; differs from run to run, so it is in summary.json only.
 struct Timing
 {
-  double wallS = 0, cpuS = 0;              ///< [s], whole run and whole process
-  double stepMedianUs = 0, stepP99Us = 0;  ///< [us], of the filter
-  double peakRssMb = 0;                    ///< [MB], of the process so far
+  double wallS = 0;         ///< of the whole run [s]
+  double cpuS = 0;          ///< of the whole process, all threads [s]
+  double stepMedianUs = 0;  ///< of the filter, wall [us]
+  double stepP99Us = 0;     ///< of the filter, wall; 1 step in 100 takes longer [us]
+  double peakRssMb = 0;     ///< [MB], of the process so far
 };
 
 /// What was run, on what.
 struct RunInfo
 {
-  std::string method;   ///< the filter's name
-  std::string dataset;  ///< the log, as it was named
-  std::uint64_t seed = 1;
-  std::string config;  ///< the effective configuration, as an ini text
+  std::string method;      ///< the filter's name
+  std::string dataset;     ///< the log, as it was named
+  std::uint64_t seed = 1;  ///< that the filter drew by
+  std::string config;      ///< the effective configuration, as an ini text
 };
 
 /// MRPT's version as numbers and dots.
@@ -40,10 +42,12 @@ struct RunInfo
 /// What later use needs of a folder's summary.json.
 struct SavedSummary
 {
-  std::string method, dataset;
-  bool hasMap = false, complete = false;
-  std::size_t observations = 0;
-  int particles = 0;
+  std::string method;            ///< name of the filter
+  std::string dataset;           ///< the log, as it was named
+  bool hasMap = false;           ///< whether the filter makes a map at all
+  bool complete = false;         ///< false: interrupted, or the input ended too early
+  std::size_t observations = 0;  ///< sightings, blobs and laser scans taken in
+  int particles = 0;             ///< 0: not a particle filter
 };
 /// None if there is no such file.  \throws core::Error (kNonsense) if it is none of ours.
 [[nodiscard]] std::optional<SavedSummary> loadSummary(const std::string& folder);

@@ -21,6 +21,7 @@ class LineReader
   /// Goes to the next line; false at the end.  A trailing carriage return is taken off.
   /// \throws core::Error (kUnreadable; kLimit on a line of over 4000 characters).
   bool next();
+  /// The line as it is, valid until next().
   [[nodiscard]] std::string_view text() const { return text_; }
 
   /// The line's parts between commas.
@@ -31,6 +32,7 @@ class LineReader
   /// A part as a finite number, whatever the locale; `name` stands for it in the message.
   /// \throws core::Error, as fail().
   [[nodiscard]] double number(std::string_view part, const char* name) const;
+  /// As number(), without a fraction.
   [[nodiscard]] int wholeNumber(std::string_view part, const char* name) const;
 
   /// \throws core::Error: kNonsense, or kTruncated if the file ends within this line.

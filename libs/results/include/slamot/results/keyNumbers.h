@@ -7,6 +7,7 @@ namespace slamot::results
 {
 /// The columns of a row of errors, the first for its name; and such a row.
 [[nodiscard]] std::vector<std::string> errorHeader();
+/// The cells below errorHeader(); a dash where there is no number.
 [[nodiscard]] std::vector<std::string> errorRow(const std::string& name,
                                                 const eval::ErrorSummary& e);
 

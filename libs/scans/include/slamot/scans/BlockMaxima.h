@@ -11,12 +11,13 @@ namespace slamot::scans
 class BlockMaxima
 {
  public:
-  static constexpr int kLevels = 6;
+  static constexpr int kLevels = 6;  ///< blocks of up to 2^(kLevels - 1) cells a side
 
   /// Values of blocks, with a margin of zeros around them.
   struct Level
   {
     Level() = default;
+    /// All zero.
     Level(int w, int h)
         : width(w),
           height(h),
@@ -29,11 +30,13 @@ class BlockMaxima
       return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) +
              static_cast<std::size_t>(x + 1);
     }
-    int width = 0, height = 0;  ///< in blocks
-    std::vector<std::uint8_t> value;
+    int width = 0;                    ///< in blocks
+    int height = 0;                   ///< in blocks
+    std::vector<std::uint8_t> value;  ///< by index()
   };
 
   BlockMaxima() = default;
+  /// From the cells' own values, as level 0.
   explicit BlockMaxima(Level blocks);
 
   /// The largest value of the cells x .. x + 2^level - 1, y likewise, or a bit more; 0 outside.

@@ -30,6 +30,7 @@ class LocalMap
   /// \param points [m]; those farther than `farthest` from the origin are left out.
   LocalMap(const std::vector<Point2D>& points, double farthest);
 
+  /// Whether there is no surface in it.
   [[nodiscard]] bool empty() const { return surfaces_.empty(); }
 
   /// The cell that a point lies in; may lie outside the map.

@@ -18,13 +18,16 @@ struct MatchSettings
 /// How far a match is looked for around what is expected.
 struct MatchReach
 {
-  double leastRadius, mostRadius;  ///< [m]
-  double leastTurn, mostTurn;      ///< [rad]
+  double leastRadius;  ///< searched however sure one is [m]
+  double mostRadius;   ///< not searched beyond [m]
+  double leastTurn;    ///< searched however sure one is [rad]
+  double mostTurn;     ///< not searched beyond [rad]
 };
 
+/// Where a scan was found to be taken, and how well that explains it.
 struct Match
 {
-  bool matched = false;
+  bool matched = false;  ///< whether score and covariance are such that it may be believed
   Gaussian<Pose2D>
       pose;  ///< of the scan and what was expected together; the latter, if not matched
   Gaussian<Pose2D> alone;  ///< of the scan alone: long where nothing stops it, as along a corridor
@@ -40,6 +43,7 @@ struct Match
 class ScanMatcher
 {
  public:
+  /// One matcher serves all maps.
   explicit ScanMatcher(const MatchSettings& settings) : settings_(settings) {}
 
   /// \param points of the scan [m], in the robot's frame.

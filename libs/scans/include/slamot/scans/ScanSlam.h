@@ -19,6 +19,7 @@ namespace slamot::scans
 class ScanSlam
 {
  public:
+  /// The map's frame is the one that `start` is in.
   ScanSlam(const Settings& settings, const Gaussian<Pose2D>& start);
   ~ScanSlam();
 
@@ -43,10 +44,16 @@ class ScanSlam
   /// The noted places as they are believed now.
   [[nodiscard]] std::vector<core::PathPose> path() const;
 
+  /// What came of scans so far.
   struct Counts
   {
-    int matched = 0, unmatched = 0, keyframes = 0, loops = 0, refused = 0;
+    int matched = 0;    ///< scans that were found in what was seen before
+    int unmatched = 0;  ///< scans that were not: the robot went on by odometry
+    int keyframes = 0;  ///< scans that were kept
+    int loops = 0;      ///< relations that closed a loop
+    int refused = 0;    ///< relations taken back, since they contradicted the graph
   };
+  /// Since the start.
   [[nodiscard]] const Counts& counts() const;
 
  private:

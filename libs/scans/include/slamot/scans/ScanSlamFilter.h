@@ -10,12 +10,14 @@ namespace slamot::scans
 class ScanSlamFilter : public core::Filter
 {
  public:
+  /// Section `scan-slam`. \throws core::Error (kConfig)
   ScanSlamFilter(core::Params& params, const core::FilterContext& context);
 
   core::Update process(const core::Step& step) override;
   [[nodiscard]] core::Estimate estimate() const override { return estimate_; }
   [[nodiscard]] std::vector<core::PathPose> path() const override { return slam_.path(); }
 
+  /// What the filter runs on: for tests of its parts.
   [[nodiscard]] const ScanSlam& slam() const { return slam_; }
 
  private:

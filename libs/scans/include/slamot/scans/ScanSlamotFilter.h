@@ -16,6 +16,7 @@ namespace slamot::scans
 class ScanSlamotFilter : public core::Filter
 {
  public:
+  /// Section `scan-slamot`, which has all keys of `scan-slam` too. \throws core::Error (kConfig)
   ScanSlamotFilter(core::Params& params, const core::FilterContext& context);
 
   core::Update process(const core::Step& step) override;

@@ -15,6 +15,7 @@ namespace slamot::sim
 class World : public core::Source
 {
  public:
+  /// Which of its sightings a world delivers.
   enum class Sightings
   {
     kAsRead,  ///< as a reader delivers them: out of the field of view is dropped and counted

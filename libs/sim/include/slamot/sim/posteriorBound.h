@@ -13,6 +13,7 @@ namespace slamot::sim
 /// is told all associations.  Root mean squares over the run, as of errors.
 struct PosteriorBound
 {
+  /// A bound, and how an efficient filter would have fared.
   struct Figure
   {
     double bound = 0;  ///< the root of a mean variance
@@ -20,12 +21,13 @@ struct PosteriorBound
     /// mean square is that of the bound.  It has the luck of the seed, as all filters' errors have.
     double efficient = 0;
   };
+  /// The bounds of a robot's pose.
   struct Robot
   {
     Figure position;  ///< [m], over the steps, the start among them
     Figure heading;   ///< [rad]
   };
-  std::vector<Robot> robots;
+  std::vector<Robot> robots;  ///< by index, as many as were asked for
   /// At the end, over the landmarks seen [m]; none if none was.
   std::optional<Figure> map;
   /// Of each target's position, over the steps at which it is there, from the start if it is known,

@@ -11,13 +11,14 @@ namespace slamot::study
 /// Mean errors of a run over equal parts of its time.
 struct ErrorCurves
 {
+  /// One kind of error over the run.
   struct Curve
   {
     std::string name;                           ///< as isCurveName() knows them
     std::vector<std::optional<double>> values;  ///< by part; absent where there was no error
   };
-  double durationS = 0;  ///< of all parts together
-  std::vector<Curve> curves;
+  double durationS = 0;       ///< of all parts together
+  std::vector<Curve> curves;  ///< those that the run has truth for
 
   /// The curve of that name; null if there is none.
   [[nodiscard]] const Curve* named(const std::string& name) const;

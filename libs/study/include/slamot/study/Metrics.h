@@ -19,7 +19,7 @@ struct Metric
   /// their mean squares.  A bound is one of mean squares; a mean of RMSEs is smaller, by what they
   /// scatter.
   const char* numerator = nullptr;
-  const char* denominator = nullptr;
+  const char* denominator = nullptr;  ///< null: the metric is no ratio
 };
 
 /// All metrics, in the order of files.
@@ -31,7 +31,8 @@ struct Metric
 /// What one robot of a team exchanged.
 struct MessageFigures
 {
-  double sent = 0, bytes = 0;   ///< messages, and all their bytes
+  double sent = 0;              ///< messages that it told
+  double bytes = 0;             ///< of these messages in all
   double fused = 0;             ///< messages of others that changed its estimate
   double candidates = 0;        ///< of them with a sighting of this robot
   std::optional<double> wrong;  ///< of these sightings, those that were not of this robot
@@ -42,12 +43,16 @@ struct MessageFigures
 /// over them, as their errors'.
 struct BoundFigures
 {
+  /// A bound, and what the efficient filter made of this run's noises.
   struct Figure
   {
-    double bound = 0, efficient = 0;
+    double bound = 0;      ///< root mean square over the run
+    double efficient = 0;  ///< root mean square error with the noises that were drawn
   };
-  std::optional<Figure> robotPosition, robotHeading;  ///< [m, rad]
-  std::optional<Figure> map, target;                  ///< [m]
+  std::optional<Figure> robotPosition;  ///< [m]
+  std::optional<Figure> robotHeading;   ///< [rad]
+  std::optional<Figure> map;            ///< [m], of landmarks at the end
+  std::optional<Figure> target;         ///< [m], of positions
 };
 
 /// The metrics of a run, in the order of metrics(); absent is what has no truth or does not apply.

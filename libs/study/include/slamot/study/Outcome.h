@@ -9,9 +9,11 @@ namespace slamot::study
 struct Outcome
 {
   std::vector<std::optional<RunRecord>> records;  ///< in the order of Plan::runs
-  std::size_t missing = 0, failed = 0;
-  std::size_t stale = 0;  ///< files of another spec or damaged, left out
+  std::size_t missing = 0;                        ///< runs without a good record
+  std::size_t failed = 0;                         ///< runs that threw; their records say why
+  std::size_t stale = 0;                          ///< files of another spec or damaged, left out
 
+  /// Whether every run is there, and none failed.
   [[nodiscard]] bool complete() const { return missing == 0 && failed == 0; }
 
   /// A metric of a group's runs, by the seed's place; absent where there is none.

@@ -21,17 +21,19 @@ struct ConfigFile
   [[nodiscard]] core::Config config() const;
 };
 
-/// A filter with its configuration; section [method.<name>].
+/// A filter with its configuration; section [method.NAME].
 struct Method
 {
-  std::string name, label;
-  ConfigFile file;
+  std::string name;   ///< of its section
+  std::string label;  ///< for tables and plots
+  ConfigFile file;    ///< its configuration
 };
 
-/// What is varied; section [vary.<name>].
+/// What is varied; section [vary.NAME].
 struct Axis
 {
-  std::string name, label;
+  std::string name;   ///< of its section
+  std::string label;  ///< for tables and plots
   /// Section.key, each of the scenario or of methods.
   std::vector<std::string> keys;
   std::vector<std::string> values;  ///< as shown
@@ -39,33 +41,36 @@ struct Axis
   std::vector<std::vector<std::string>> settings;
 };
 
-/// Metrics side by side; section [table.<name>].
+/// Metrics side by side; section [table.NAME].
 struct TableSpec
 {
-  std::string name, title;
-  std::vector<std::string> metrics;
+  std::string name;                  ///< of its section
+  std::string title;                 ///< above the table
+  std::vector<std::string> metrics;  ///< the columns, by metrics() names
   std::string reference;  ///< the method by whose means others' are divided; empty: means
   std::vector<std::string> methods;  ///< the rows; empty: all
 };
 
 /// A figure of metrics over an axis, or of errors over a run's time, one panel for each: section
-/// [plot.<name>].
+/// [plot.NAME].
 struct PlotSpec
 {
-  std::string name, title;
+  std::string name;                  ///< of its section, and of the files
+  std::string title;                 ///< above the plot
   bool overTime = false;             ///< x = time: see ErrorCurves
   std::size_t axis = 0;              ///< else: place in StudySpec::axes
   std::vector<std::string> metrics;  ///< or names of curves
   /// Only cells with these values: places of axes and of values in them.
   std::map<std::size_t, std::size_t> fixed;
   std::vector<std::string> methods;  ///< only these; empty: all
-  bool logX = false, logY = false;
+  bool logX = false;                 ///< logarithmic axis
+  bool logY = false;                 ///< logarithmic axis
 };
 
-/// Figures that others published, printed beside: section [published.<name>].
+/// Figures that others published, printed beside: section [published.NAME].
 struct Published
 {
-  std::string label;
+  std::string label;                            ///< for the row
   std::string method;                           ///< whose row it stands under; empty: at the end
   std::map<std::string, std::string> byAxis;    ///< and in which cells; by name, as shown
   std::map<std::string, std::string> byMetric;  ///< as printed there
@@ -81,24 +86,25 @@ void assign(core::Config& config, const std::string& assignment,
 struct StudySpec
 {
   std::string name;                  ///< the file's name
-  std::string title, note;           ///< of the page of tables
+  std::string title;                 ///< of the page of tables
+  std::string note;                  ///< below the title
   bool simulated = true;             ///< else rawlogs
   ConfigFile scenario;               ///< if simulated
   std::vector<std::string> rawlogs;  ///< else: paths
-  std::vector<Method> methods;
-  std::string reference;   ///< the method to which others are compared; empty: none
-  std::vector<Axis> axes;  ///< in the order of [study] vary
-  int seeds = 1;
-  std::uint64_t firstSeed = 1;
-  std::string align;              ///< auto | none | first-pose | rigid
-  double landmarkCutoff = 1;      ///< see eval::EvaluationOptions [m]
-  double gospaCutoff = 1;         ///< the same [m]
-  bool bound = true;              ///< if simulated: whether to compute each world's bound
-  int timeBins = 0;               ///< parts of a run's time in which to keep its errors; 0: none
-  std::vector<TableSpec> tables;  ///< of the page, in the order of [study] tables
-  std::vector<PlotSpec> plots;
-  std::vector<Published> published;
-  std::string effective;  ///< the study itself as an ini text, see repeatable()
+  std::vector<Method> methods;       ///< in the order of [study] methods
+  std::string reference;             ///< the method to which others are compared; empty: none
+  std::vector<Axis> axes;            ///< in the order of [study] vary
+  int seeds = 1;                     ///< how many, from firstSeed on
+  std::uint64_t firstSeed = 1;       ///< the least
+  std::string align;                 ///< auto | none | first-pose | rigid
+  double landmarkCutoff = 1;         ///< see eval::EvaluationOptions [m]
+  double gospaCutoff = 1;            ///< the same [m]
+  bool bound = true;                 ///< if simulated: whether to compute each world's bound
+  int timeBins = 0;                  ///< parts of a run's time in which to keep its errors; 0: none
+  std::vector<TableSpec> tables;     ///< of the page, in the order of [study] tables
+  std::vector<PlotSpec> plots;       ///< in the order of the file
+  std::vector<Published> published;  ///< in the order of the file
+  std::string effective;             ///< the study itself as an ini text, see repeatable()
 
   /// Reads a study; files that it names are relative to its own.  `set` are overrides, as of --set.
   /// \throws core::Error (kConfig) naming file, section and key; kUnreadable for a missing rawlog.

@@ -16,22 +16,24 @@ namespace slamot::study
 /// methods the same steps.
 struct Trial
 {
+  /// One robot's data.
   struct Robot
   {
-    std::unique_ptr<core::Source> source;
+    std::unique_ptr<core::Source> source;       ///< its steps
     std::function<const eval::Truth&()> truth;  ///< complete once the source is at its end
-    core::Starts starts;
+    core::Starts starts;                        ///< what the filter may know of the starts
   };
-  std::vector<Robot> robots;
+  std::vector<Robot> robots;             ///< one, or those of a team
   std::unique_ptr<core::Filter> filter;  ///< of the one robot; null in a team
-  std::unique_ptr<team::Team> team;
-  eval::EvaluationOptions evaluation;
-  int timeBins = 0;
-  std::string effective;  ///< all that the result depends on, but seed and program
+  std::unique_ptr<team::Team> team;      ///< null: it is no team
+  eval::EvaluationOptions evaluation;    ///< how errors are to be taken
+  int timeBins = 0;                      ///< of ErrorCurves; 0: none are kept
+  std::string effective;                 ///< all that the result depends on, but seed and program
   /// Which simulated world it is, the same for all methods; and its bound, null without one, or
   /// where errors are taken otherwise than from the map's frame.
   std::string world;
-  std::function<std::optional<BoundFigures>()> bound;
+  std::function<std::optional<BoundFigures>()>
+      bound;  ///< computes it, which may take seconds; see `world`
 };
 
 /// \throws core::Error: kConfig on a wrong scenario or method; else what is wrong with a rawlog.
@@ -41,10 +43,11 @@ struct Trial
 /// What became of each robot of a trial; refers to the trial, which must outlive it.
 struct FinishedTrial
 {
-  std::vector<eval::Record> records;
-  std::vector<const eval::Truth*> truths;
-  std::vector<eval::Evaluation> evaluations;
+  std::vector<eval::Record> records;          ///< by robot
+  std::vector<const eval::Truth*> truths;     ///< by robot, of the trial's sources
+  std::vector<eval::Evaluation> evaluations;  ///< by robot; a team's all with one alignment
 
+  /// Records with their truths, as alignment() takes them; must not outlive this.
   [[nodiscard]] std::vector<eval::RunWithTruth> runs() const;
 };
 

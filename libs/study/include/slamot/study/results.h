@@ -14,7 +14,7 @@ namespace slamot::study
 /// \throws core::Error (kUnreadable).
 void saveTables(const std::string& folder, const Plan& plan, const Outcome& outcome);
 
-/// The same, and <plot>.svg and <plot>.png.
+/// The same, and PLOT.svg and PLOT.png of each plot, by its name.
 /// \throws core::Error (kUnreadable; kInternal without gnuplot).
 void saveResults(const std::string& folder, const Plan& plan, const Outcome& outcome);
 

@@ -10,16 +10,19 @@ namespace slamot::study
 /// A table as text: a row for each cell and method, and what others published among them.
 struct TableText
 {
+  /// A line of the table.
   struct Row
   {
-    std::vector<std::string> fields;
-    bool isPublished = false;
+    std::vector<std::string> fields;  ///< as many as `head`
+    bool isPublished = false;         ///< what others published, not ours
   };
-  std::string title, note;      ///< the note says what the numbers are
-  std::size_t leadColumns = 1;  ///< those that name the row
-  std::vector<std::string> head;
-  std::vector<Row> rows;
+  std::string title;              ///< above it
+  std::string note;               ///< says what the numbers are
+  std::size_t leadColumns = 1;    ///< those that name the row
+  std::vector<std::string> head;  ///< of the columns
+  std::vector<Row> rows;          ///< from the top
 };
+/// A table of the study as the page has it, intervals in the fields.
 [[nodiscard]] TableText tableText(const Plan& plan, const Outcome& outcome, const TableSpec& table);
 
 /// Which runs failed and why, at most twenty of them: one sentence for each.

@@ -8,9 +8,9 @@ namespace slamot::team
 /// One robot's log.
 struct Log
 {
-  int number = 0;  ///< under which others see it and messages name it
-  core::Source* source = nullptr;
-  core::Starts starts;
+  int number = 0;                  ///< under which others see it and messages name it
+  core::Source* source = nullptr;  ///< of its steps; never null
+  core::Starts starts;             ///< where it and its targets start
 };
 
 /// A team made from a configuration: a filter for each robot, their messages and the radio; or,
@@ -27,15 +27,20 @@ class Team
   core::RunResult run(const std::vector<std::vector<core::Sink*>>& sinks,
                       const core::RunOptions& options = {});
 
+  /// How many robots.
   [[nodiscard]] std::size_t size() const { return robots_.size(); }
+  /// Section [team].
   [[nodiscard]] const fusion::TeamOptions& options() const { return options_; }
+  /// The robot's estimator; with rule = centralized, its view of the one for all.
   [[nodiscard]] const core::Filter& filter(std::size_t robot) const { return *filters_[robot]; }
+  /// Name of the robot's filter.
   [[nodiscard]] const std::string& method(std::size_t robot) const { return methods_[robot]; }
   /// Null with rule = centralized.
   [[nodiscard]] const fusion::Member* member(std::size_t robot) const
   {
     return robots_[robot].member;
   }
+  /// The good messages that it took in, after run().
   [[nodiscard]] const std::vector<fusion::FusionEvent>& events(std::size_t robot) const
   {
     return robots_[robot].events;
@@ -63,8 +68,8 @@ class Team
 /// A filter, and itself as one that can exchange estimates.
 struct MemberFilter
 {
-  std::unique_ptr<core::Filter> filter;
-  core::TeamFilter* asMember = nullptr;
+  std::unique_ptr<core::Filter> filter;  ///< never null
+  core::TeamFilter* asMember = nullptr;  ///< the same object
 };
 /// \throws core::Error (kConfig) on a wrong configuration, or a filter that can't exchange.
 [[nodiscard]] MemberFilter makeFilter(core::Config& config, const std::string& method,

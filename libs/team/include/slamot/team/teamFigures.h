@@ -8,14 +8,15 @@ namespace slamot::team
 /// A team's run as figures show it; what it refers to must outlive it.
 struct TeamView
 {
+  /// One robot's run.
   struct Robot
   {
-    std::string name;
-    results::RunView run;
-    const std::vector<fusion::FusionEvent>& events;
+    std::string name;                                ///< for legends
+    results::RunView run;                            ///< its record, truth and evaluation
+    const std::vector<fusion::FusionEvent>& events;  ///< good messages that it took in
   };
-  std::vector<Robot> robots;
-  int target = 0;  ///< identity of the target that all follow
+  std::vector<Robot> robots;  ///< in the order of their logs
+  int target = 0;             ///< identity of the target that all follow
 };
 
 /// The colour of a robot, and of the target as it tracks it; they repeat after the last.

@@ -16,14 +16,15 @@ namespace slamot::team
 /// One robot's run, all evaluated with one common alignment.
 struct RobotResult
 {
-  std::string name;
-  results::RunView view;
+  std::string name;       ///< of its log, without the ending
+  results::RunView view;  ///< its record, truth and evaluation
 };
 
 /// What fusion came to for one robot.
 struct FusionSummary
 {
-  std::int64_t fused = 0, candidates = 0;
+  std::int64_t fused = 0;       ///< messages that made the estimate better
+  std::int64_t candidates = 0;  ///< of these, with a sighting of this robot
   /// Candidates taken that were not this robot: more than five of the sensor's deviations from
   /// where it truly was, seen from where the sender truly was; none without truth.
   std::optional<std::int64_t> wrongCandidates;

@@ -16,14 +16,17 @@ class VideoFile
   virtual void finish() = 0;
 };
 
+/// Size and speed of a film.
 struct VideoFormat
 {
-  int width = 0, height = 0;  ///< [px], even
-  double fps = 25;            ///< frames a second
+  int width = 0;    ///< [px], even
+  int height = 0;   ///< [px], even
+  double fps = 25;  ///< frames a second
 };
 
 /// The module's one function, by the name kOpenVideo.
 /// \throws core::Error (kUnreadable) if there can be no such file.
 using OpenVideo = std::unique_ptr<VideoFile>(const std::string& path, const VideoFormat& format);
-inline constexpr const char* kOpenVideo = "slamotOpenVideo";
+inline constexpr const char* kOpenVideo =
+    "slamotOpenVideo";  ///< symbol of a function of type OpenVideo
 }  // namespace slamot::video

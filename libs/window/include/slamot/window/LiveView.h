@@ -11,6 +11,7 @@ namespace slamot::window
 class LiveView : public core::Sink
 {
  public:
+  /// False once the user has closed it.
   [[nodiscard]] virtual bool isOpen() = 0;
 };
 
@@ -19,5 +20,6 @@ class LiveView : public core::Sink
 /// \throws core::Error (kConfig) where no window can be opened.
 using OpenLiveView = std::unique_ptr<LiveView>(const std::string& title,
                                                const core::Filter& filter);
-inline constexpr const char* kOpenLiveView = "slamotOpenLiveView";
+inline constexpr const char* kOpenLiveView =
+    "slamotOpenLiveView";  ///< symbol of a function of type OpenLiveView
 }  // namespace slamot::window
