@@ -22,12 +22,15 @@ namespace slamot::models
 class ManoeuvringTarget
 {
  public:
-  static constexpr int kSize = 6;
-  static constexpr int kAngle = -1;  ///< none wraps
-  static constexpr int kMostModes = 5;
+  static constexpr int kSize = 6;       ///< x, y, vx, vy, ax, ay
+  static constexpr int kAngle = -1;     ///< none wraps
+  static constexpr int kMostModes = 5;  ///< a bank has room for
+  /// A mean [m, m/s, m/s²].
   using Vector = Eigen::Matrix<double, kSize, 1>;
+  /// Its covariance, or a transition.
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 
+  /// What a target may be doing.
   enum class Mode
   {
     kVelocity,     ///< constant velocity
@@ -36,6 +39,7 @@ class ManoeuvringTarget
     kTurn,         ///< coordinated turn: turns at a rate that is estimated
     kAcceleration  ///< constant acceleration
   };
+  /// What is known of such targets; keys as in config-ini/rbpf-slamot.manoeuvre.ini.
   struct Params
   {
     std::vector<Mode> modes;  ///< at least one, at most kMostModes
@@ -52,21 +56,23 @@ class ManoeuvringTarget
     double accelerationNoise;  ///< [m/s² per square root of Hz] per axis, in the same modes
     double jerkNoise;          ///< [m/s³ per square root of Hz] per axis, of constant acceleration
     double turnRateNoise;      ///< [rad/s per square root of a second] of a coordinated turn
+    /// Reads the keys. \throws core::Error (kConfig)
     static Params from(core::Params& p);
   };
   /// One model's belief.
   struct Member
   {
-    Vector x = Vector::Zero();
-    Matrix P = Matrix::Zero();
-    double weight = 0;  ///< its probability
+    Vector x = Vector::Zero();  ///< mean
+    Matrix P = Matrix::Zero();  ///< covariance
+    double weight = 0;          ///< its probability
 
     /// Takes in another, its weight multiplied: one Gaussian with the moments of both.
     void add(const Member& m, double times);
   };
+  /// The bank, and its mean and covariance as one Gaussian.
   struct State : TargetState<kSize>
   {
-    int modes = 0;
+    int modes = 0;                        ///< models in the bank
     std::array<Member, kMostModes> bank;  ///< the first `modes`
     TargetState<kSize>
         known;  ///< mean and covariance when the bank was last made to agree with them
@@ -90,24 +96,36 @@ class ManoeuvringTarget
     void combine();
   };
 
+  /// One model serves all targets.
   explicit ManoeuvringTarget(const Params& params) : params_(params) {}
 
+  /// A target whose start is known: each mode as if it had just begun.
   [[nodiscard]] State start(const core::ObjectStart& start) const;
+  /// The same of one first seen at a place, in map axes.
   [[nodiscard]] State birth(const Gaussian<Point2D>& place) const;
   /// The transition is that of the whole.  F is the models' mean for place and velocity, which an
   /// acceleration goes with; Q the rest of what they leave.
   TargetTransition<kSize> move(State& s, double dt) const;
+  /// The state dt [s] later.
   void predict(State& s, double dt) const;
+  /// Nothing is to be done after a correction; see DifferentialDriveTarget. \return false
   bool afterCorrection(State&, const Gaussian<Point2D>*) const { return false; }
 
+  /// Place and course; a heading that its velocity tells little of is as good as unknown.
   [[nodiscard]] static Gaussian<Pose2D> pose(const State& s);
+  /// [m/s], in map axes, with its covariance.
   [[nodiscard]] static Vector2 velocity(const State& s, Matrix2& cov);
+  /// The state itself.
   [[nodiscard]] static Kinematics<kSize, kSize> kinematics(const State& s);
+  /// Whether kinematics() means something.
   [[nodiscard]] static bool hasVelocity(const State&) { return true; }
   /// Of somebody's (x, y, vx, vy, ax, ay), whose modes are not known: turns and accelerations that
   /// may be are noise.
   [[nodiscard]] TargetTransition<kSize> kinematicTransition(const Vector& x, double dt) const;
+  /// [m/s²] of an acceleration of which nothing is told.
   [[nodiscard]] double accelerationStd() const { return params_.accelerationStd; }
+  /// Adds the uncertainty of a small rigid motion of the target, given by the covariance of its
+  /// pose.
   static void widen(State& s, const Matrix3& poseCov);
 
  private:

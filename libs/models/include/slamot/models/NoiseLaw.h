@@ -44,8 +44,9 @@ class NoiseLaw
 
   /// \throws std::domain_error unless 0 <= probability <= 1, scale > 0 and freedom > 0.
   explicit NoiseLaw(const Settings& settings);
-  /// From the keys `glint_probability`, `glint_law`, `glint_scale` and `glint_freedom` after a
-  /// prefix.  \param otherwise the probability where the configuration tells none.
+  /// From the keys `glint_probability`, `glint_law`, `glint_scale` and `glint_freedom`.
+  /// \param p the section. \param prefix of the keys.
+  /// \param otherwise the probability where the configuration tells none.
   /// \return null where there is no glint.
   static std::shared_ptr<const NoiseLaw> from(core::Params& p, const std::string& prefix,
                                               double otherwise = 0);

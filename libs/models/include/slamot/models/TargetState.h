@@ -20,7 +20,8 @@ struct TargetState
   /// Covariance of its place [m²].
   [[nodiscard]] Matrix2 pointCov() const { return P.template topLeftCorner<2, 2>(); }
 
-  /// Kalman update by an innovation nu with covariance S, H its derivative by the place (Mx2).
+  /// Kalman update.
+  /// \param nu innovation. \param S its covariance. \param H its derivative by the place.
   /// \param doubt what is added to -S⁻¹ in the update of P: where S stands for several Gaussians,
   /// what they disagree about.
   template <int M>

@@ -10,9 +10,12 @@ namespace slamot::models
 template <int N>
 struct Stretch
 {
-  Eigen::Matrix<double, N, N> T, left;
+  Eigen::Matrix<double, N, N> T;     ///< the map
+  Eigen::Matrix<double, N, N> left;  ///< covariance of w
 };
 
+/// The Stretch from one covariance to another, both N x N; the same in all axes.
+/// \param from,to positive semidefinite.
 /// \param shrinkOnly T is the identity where `to` is the larger, and else shrinks; otherwise it may
 /// stretch, and `left` is what `from` knows exactly and `to` does not.
 template <int N>
