@@ -49,9 +49,9 @@ std::vector<MetricEntry> particleMetrics()
 {
   return {
       {{"ess_mean", "effective sample size, mean", 1}, essMean},
-      {{"degenerate_share", "steps at which one particle has over 99% of the weight", 4},
+      {{"degenerate_share", "steps with one particle over 99%", 4},
        degenerateShare},
-      {{"resampled_share", "steps after which particles were resampled", 3}, resampledShare},
+      {{"resampled_share", "steps that resample", 3}, resampledShare},
   };
 }
 }  // namespace slamot::study
