@@ -152,6 +152,39 @@ TEST(KalmanTracker, FollowsByEveryModelOfMotion)
   EXPECT_LT(rmse(follow(*filter, run), run), 10);
 }
 
+// Modes of noise and of motion together: a target that turns now left, now right, under glint.
+TEST(ImmTracker, FollowsATargetThatManoeuvres)
+{
+  const std::string keys = "association = known\nobservation = position\n" + glint(0.3) +
+                           "target_lost_std_m = 1e6\ntarget_velocity_std_mps = 10\n";
+  double bank = 0, single = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    const GlintRun run("position", seed,
+                       {"target.motion=manoeuvre", "target.turn_rate_radps=0.1",
+                        "target.switch_min_s=10", "target.switch_max_s=20"});
+    bank +=
+        rmse(follow(*makeFilter("imm-tracker",
+                                keys + "target_motion = manoeuvring\n"
+                                       "target_modes = constant-velocity, left-turn, right-turn\n"
+                                       "target_mode_time_s = 15\n"
+                                       "target_turn_rate_deg_per_s = 5.729578\n"
+                                       "target_acceleration_std_mps2 = 1\n"
+                                       "target_velocity_noise_mps_per_sqrt_hz = 0.1\n"
+                                       "target_heading_walk_deg_per_sqrt_s = 0.5\n"
+                                       "target_acceleration_noise_mps2_per_sqrt_hz = 0.02\n",
+                                run.context()),
+                    run),
+             run);
+    single +=
+        rmse(follow(*makeFilter("imm-tracker", keys + "target_step_acceleration_std_mps2 = 0.7\n",
+                                run.context()),
+                    run),
+             run);
+  }
+  EXPECT_LT(bank, 0.85 * single);
+}
+
 TEST(KalmanTracker, ScalesTheNoiseThatTheLogTells)
 {
   const GlintRun run("position", 2);
