@@ -70,4 +70,28 @@ TEST_P(TargetModels, ObeyTheFilterLaws)
   options.targetNees = {0.3, 5, "the target never leaves its one mode"};
   laws::checkFilter(filter, core::Config::parse("[" + filter + "]\n" + keys, test), options);
 }
+
+// A law's tails reach over the whole small world: what is new is new all the same.
+TEST(TargetModels, FilterThatExpectsGlintMapsWhatIsNewWithoutIdentities)
+{
+  laws::World world;
+  world.identities = false;
+  const laws::Drive drive = laws::drive(world, 5);
+  core::FilterContext context;
+  context.starts = drive.starts;
+  const auto mapped = [&](const std::string& name, const std::string& keys)
+  {
+    const auto filter = test::makeFilter(name, "association = nn\n" + kDriven + keys, context);
+    for (const core::Step& step : drive.steps) (void)filter->process(step);
+    return test::landmarks(filter->estimate()).size();
+  };
+  const std::string few = "particles = 40\nproposal = informed\n";
+  for (const auto& [name, keys] : {std::pair<std::string, std::string>{"rbpf-slamot", few},
+                                   std::pair<std::string, std::string>{"ekf-slamot", ""}})
+  {
+    const std::size_t plain = mapped(name, keys), told = mapped(name, keys + kGlint);
+    EXPECT_GE(plain, 8u) << name;
+    EXPECT_GE(told + 1, plain) << name;
+  }
+}
 }  // namespace slamot::filters

@@ -146,6 +146,21 @@ void Map::matchKnown(const core::LandmarkScan& scan, std::vector<std::int32_t>& 
   }
 }
 
+// The tails of a law reach far: in a gate of theirs nothing new would ever be seen.  What is less
+// likely than a pair at the gate's edge is without a law, and out of an ordinary error's gate, is
+// no pair. Hypotheses weigh what is new themselves.
+bool Map::isRatherNew(int robot, int object, const Eye& eye, const Ray& ray,
+                      const Innovation& o) const
+{
+  if (!ray.law || settings_->arrival) return false;
+  const double edge = settings_->gates.inner + std::log(4 * ray.varRange * ray.varBearing);
+  Ray ordinary = ray;
+  ordinary.law = nullptr;
+  Innovation of;
+  return o.d2 + std::log(o.det) > edge &&
+         (!relate(*belief_, robot, object, eye, ordinary, of) || of.d2 > settings_->gates.outer);
+}
+
 std::vector<Map::Possible> Map::possible(int robot, const Eye& eye, const Ray& ray,
                                          double time) const
 {
@@ -165,7 +180,8 @@ std::vector<Map::Possible> Map::possible(int robot, const Eye& eye, const Ray& r
     const double most = 2 * (spread(j) + spread(robot) + n * own);
     Innovation o;
     if (dx * dx + dy * dy <= 2 * settings_->gates.outer * ray.reach * most &&
-        relate(*belief_, robot, j, eye, ray, o, n) && o.d2 <= settings_->gates.outer)
+        relate(*belief_, robot, j, eye, ray, o, n) && o.d2 <= settings_->gates.outer &&
+        !isRatherNew(robot, j, eye, ray, o))
       out.push_back({s, o, n});
   }
   return out;

@@ -88,6 +88,8 @@ class Map : public core::LandmarkView
   };
   [[nodiscard]] std::vector<Possible> possible(int robot, const Eye& eye, const Ray& ray,
                                                double time) const;
+  [[nodiscard]] bool isRatherNew(int robot, int object, const Eye& eye, const Ray& ray,
+                                 const Innovation& o) const;
   [[nodiscard]] double chanceToSee(int robot, const Eye& eye, int slot) const;
   void matchKnown(const core::LandmarkScan& scan, std::vector<std::int32_t>& matches) const;
   void matchByPlace(int robot, double time, Scan& out);

@@ -64,9 +64,22 @@ void LandmarkScan::forPossiblePairs(const maps::LandmarkMap& map, const Eye& eye
       if (!mayBeOf(*m) || !innovateLandmark(eye, j, *m, spread ? &poseCov : nullptr, o, 1))
         continue;
       const Innovation whole = spread ? withPose(o, poseCov) : o;
-      if (whole.d2 <= settings_.gates.outer)
+      if (whole.d2 <= settings_.gates.outer && !isRatherNew(j, eye, *m, spread, poseCov, whole))
         f(static_cast<std::int32_t>(j), static_cast<std::int32_t>(slot), o, whole);
     }
+}
+
+// The tails of a law reach far: in a gate of theirs nothing new would ever be seen.  What is
+// likelier of something new, and out of the gate of an ordinary error, is no pair.
+bool LandmarkScan::isRatherNew(std::size_t j, const Eye& eye, const maps::Landmark& m, bool spread,
+                               const Matrix3& poseCov, const Innovation& whole) const
+{
+  const Ray& ray = slots_.rays()[j];
+  Innovation o;
+  if (!ray.law || logDensity(whole, true) >= logNew_[j] ||
+      !innovate(eye, ray, m.x, m.y, m.cxx, m.cxy, m.cyy, o))
+    return false;
+  return (spread ? withPose(o, poseCov) : o).d2 > settings_.gates.outer;
 }
 
 void LandmarkScan::match(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,

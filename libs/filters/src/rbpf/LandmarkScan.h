@@ -132,6 +132,9 @@ class LandmarkScan
   template <class F>
   void forPossiblePairs(const maps::LandmarkMap& map, const Eye& eye, const Matrix3& root,
                         F&& f) const;
+  [[nodiscard]] bool isRatherNew(std::size_t j, const Eye& eye, const maps::Landmark& m,
+                                 bool spread, const Matrix3& poseCov,
+                                 const Innovation& whole) const;
   [[nodiscard]] bool mayBeOf(const maps::Landmark& m) const
   {
     return !settings_.intensity || m.confirmed;
