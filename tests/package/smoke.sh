@@ -39,6 +39,11 @@ step "completion"
 holds simulate bash -c '. /usr/share/bash-completion/completions/slamot
   COMP_WORDS=(slamot si) COMP_CWORD=1; _slamot; printf "%s\n" "${COMPREPLY[@]}"'
 
+step "the documentation"
+for page in index gallery api/index; do
+  [ -s "/usr/share/doc/slamot-doc/html/$page.html" ] || fail "slamot-doc has no html/$page.html"
+done
+
 step "MRPT's tools know its classes"
 holds 'BLOBS */ *1200 ' rawlog-edit -p libslamot-mrpt.so -i "$share/datasets/post-field.rawlog" --info
 for tool in RawLogViewer SceneViewer3D; do

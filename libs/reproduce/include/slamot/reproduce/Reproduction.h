@@ -37,7 +37,7 @@ class Reproduction
     std::optional<std::uint64_t> firstSeed;  ///< see PaperSpec::Options
   };
 
-  /// Lays out all studies of the papers that a name stands for, see paperFiles().
+  /// Lays out all studies of the papers that a name stands for, see PaperList::find().
   /// \throws core::Error as PaperSpec::load() and study::Plan.
   Reproduction(const std::string& name, const std::string& configFolder, const Options& options);
 
