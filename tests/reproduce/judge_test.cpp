@@ -206,6 +206,15 @@ TEST_F(Judge, WhatWasNotRunIsNoVerdict)
   EXPECT_EQ(judge(claim, nullptr, nullptr).verdict, Verdict::kNotRun);
 }
 
+TEST_F(Judge, NothingByNothingIsNoNumberButADifferenceIs)
+{
+  for (std::size_t method : {0u, 1u}) set(0, method, {0.0, 0.0, 0.0, 0.0});
+  EXPECT_EQ(status("robot_mean_m(joint, landmarks=3) / robot_mean_m(odometry, landmarks=3) < 1"),
+            Status::kNotRun);
+  EXPECT_EQ(status("robot_mean_m(joint, landmarks=3) - robot_mean_m(odometry, landmarks=3) < 0"),
+            Status::kFailed);
+}
+
 TEST_F(Judge, MissingNumbersKeepAClaimFromHolding)
 {
   set(0, 0, {1.0, 1.1, 0.9, 1.0});  // the other cell has none

@@ -55,7 +55,7 @@ std::string statusText(Status status)
     case Status::kNotRun:
       break;
   }
-  return "no runs";
+  return "no number";
 }
 
 std::string kindOf(Status status)

@@ -11,7 +11,7 @@ enum class Status
   kMet,     ///< the whole interval is where it should be
   kOpen,    ///< the interval reaches over the bound: the runs do not decide
   kFailed,  ///< the whole interval is on the other side
-  kNotRun,  ///< there are no runs, or they have no such number
+  kNotRun,  ///< no runs have such a number, or the divisor is 0
   kLeftOut  ///< the quick reproduction leaves the method or the cell out
 };
 
