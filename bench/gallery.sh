@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The tables of doc/gallery.md: every filter on every kind of data, with errors, consistency and CPU time.
-# usage: bench/gallery.sh [NAME=PATH]...    data that you got yourself: mrclam=FOLDER, victoria-park=FOLDER, scaled-cars=FOLDER,
-#   intel=LOG[,RELATIONS], csail=LOG; tables of data that are not given, or not there, stay as they are.  ./dev build first.
+# usage: bench/gallery.sh simulated [NAME=PATH]...    data that you got yourself: mrclam=FOLDER, victoria-park=FOLDER,
+#   scaled-cars=FOLDER, intel=LOG[,RELATIONS], csail=LOG; tables of data that are not given stay as they are.  ./dev build first.
 # Of Debian: python3; mrpt-common for MRPT's own logs.  SEEDS (10) of simulated worlds, LUCK (5) seeds of filters that draw, on real
 # data; ONLY=REGEX: tables it matches.  PICTURES=1 draws those of doc/images too (imagemagick).
 # Results stay in slamot-out/gallery; a rerun does only what is missing, so remove the folder after a change of the program.
@@ -13,6 +13,7 @@ seeds=${SEEDS:-10} luck=${LUCK:-5} only=${ONLY:-.} pictures=${PICTURES:-}
 slamot=${SLAMOT_BUILD:-build}/apps/slamot/slamot out=slamot-out/gallery page=doc/gallery.md
 die() { printf 'gallery.sh: error: %s\n' "$*" >&2; exit 1; }
 say() { printf '%s\n' "$*" >&2; }
+[ $# -gt 0 ] || { echo "gallery.sh: skipped: it rewrites $page; say so: bench/gallery.sh simulated"; exit 0; }
 [ -x "$slamot" ] || die "$slamot is missing: run ./dev build"
 slamot=$(readlink -f "$slamot")
 command -v python3 >/dev/null || die "python3 is missing: apt-get install python3"
@@ -20,6 +21,7 @@ command -v python3 >/dev/null || die "python3 is missing: apt-get install python
 
 declare -A given=()
 for data in "$@"; do
+  [ "$data" != simulated ] || continue
   [[ $data =~ ^(mrclam|victoria-park|scaled-cars|intel|csail)=(.+)$ ]] || die "'$data' is no data: give NAME=PATH, as the head of this file says"
   given[${BASH_REMATCH[1]}]=${BASH_REMATCH[2]}
 done
@@ -54,8 +56,8 @@ simulated()
   local scenario=$1 seed; shift
   logs=() worlds=1
   for ((seed = 1; seed <= seeds; seed++)); do
-    make "$out/$table/$seed.rawlog" simulate "config-ini/$scenario" --seed $seed "$@"
-    logs+=("$out/$table/$seed.rawlog")
+    make "$out/$table/$table-$seed.rawlog" simulate "config-ini/$scenario" --seed $seed "$@"
+    logs+=("$out/$table/$table-$seed.rawlog")
   done
   name=$table.rawlog
   shown "slamot simulate config-ini/$scenario -o $name --seed N${*:+ $*}"

@@ -45,6 +45,7 @@ COLUMNS = {  # head, number of a run, decimals, factor
     "mapped": ("mapped", lambda r: inner(r, "landmarks", "mapped"), 1, 1),
     "false": ("of them false", false_ones, 1, 1),
     "targets": ("targets [m]", lambda r: of_targets(r, "position_rmse_m"), 3, 1),
+    "target_heading": ("their headings [deg]", lambda r: of_targets(r, "heading_rmse_rad"), 1, math.degrees(1)),
     "target_coverage": ("in their 95% ellipses [%]", lambda r: of_targets(r, "coverage_95"), 0, 100),
     "tracked": ("tracked [%]", lambda r: mean([t["tracked_fraction"] for t in r["evaluation"]["true_targets"]]), 0, 100),
     "gospa": ("targets, GOSPA [m]", lambda r: inner(r, "target_set", "gospa_mean_m"), 2, 1),
@@ -70,7 +71,7 @@ def cell(values, decimals, factor):
         return text
     deviation = math.sqrt(sum((v - middle) ** 2 for v in known) / (len(known) - 1))
     half = T975[min(len(known) - 1, len(T975) - 1)] * deviation / math.sqrt(len(known))
-    return f"{text} ± {half:.{decimals}f}"
+    return f"{text}\u00a0±\u00a0{half:.{decimals}f}"  # no line ends in it
 
 
 def runs(folder):

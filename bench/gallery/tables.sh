@@ -59,6 +59,17 @@ if begin crossing-targets; then
   picture "rbpf-slamot, targets as a random finite set"
   end robot coverage landmarks gospa tracked cpu
 fi
+if begin manoeuvre; then
+  simulated sim.manoeuvre.ini
+  for filter in rbpf-slamot ekf-slamot; do
+    row "$filter, a bank of models" $filter.manoeuvre.ini
+    row "$filter, constant velocity" $filter.manoeuvre.ini --set $filter.target_motion=constant-velocity \
+      --set $filter.target_acceleration_noise_mps2_per_sqrt_hz=1
+    row "$filter, constant turn" $filter.manoeuvre.ini --set $filter.target_motion=differential-drive \
+      --set $filter.target_speed_noise_mps=0.8 --set $filter.target_turn_rate_noise_deg_per_s=34.38
+  done
+  end robot targets target_heading target_coverage tracked cpu
+fi
 if begin glint; then
   simulated sim.glint-polar.ini
   row imm-tracker imm-tracker.ini --set imm-tracker.observation=polar
