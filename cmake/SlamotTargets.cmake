@@ -13,6 +13,10 @@ if(SLAMOT_BUILD_FUZZ)  # coverage for the fuzzer and checks, in all libraries
   add_link_options(-fsanitize=fuzzer-no-link,address,undefined)
 endif()
 
+# GCC tidies up its memory less often: a tenth of the time to build what has many templates.
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=200>
+                    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
+
 set(seldom $<$<CONFIG:Release>:-O1>)  # options for what runs seldom: two thirds of the time to build
 include(SlamotPrecompiled)
 set(common <algorithm> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <string>
@@ -21,6 +25,11 @@ slamot_precompiled(slamot_precompiled_library PIC ${BUILD_SHARED_LIBS} HEADERS $
                    DEPENDS Eigen3::Eigen mrpt::math)
 slamot_precompiled(slamot_precompiled_seldom PIC ${BUILD_SHARED_LIBS} HEADERS ${common}
                    DEPENDS Eigen3::Eigen mrpt::math OPTIONS ${seldom})
+
+# Sources compiled four at once: two thirds of the time to build many small ones.
+function(slamot_few_at_once target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SLAMOT_UNITY} UNITY_BUILD_BATCH_SIZE 4)
+endfunction()
 
 # slamot_library(NAME [SHARED] [SELDOM] SOURCES a.cpp ... [DEPENDS targets ...] [PRIVATE_DEPENDS targets ...])
 # Makes lib slamot-NAME with alias slamot::NAME, headers in include/, installed and exported. SELDOM: what
@@ -43,6 +52,7 @@ function(slamot_library name)
   if(ARG_SELDOM)
     target_compile_options(${target} PRIVATE ${seldom})
     slamot_use_precompiled(${target} slamot_precompiled_seldom)
+    slamot_few_at_once(${target})
   elseif(NOT ARG_SHARED)
     slamot_use_precompiled(${target} slamot_precompiled_library)
   endif()

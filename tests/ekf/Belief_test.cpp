@@ -1,4 +1,5 @@
 #include "dense.h"
+#include "denseKalman.h"
 
 namespace slamot::filters::ekf
 {
@@ -53,11 +54,10 @@ TEST(Belief, UpdateIsTheKalmanFilters)
     nu.segment<2>(static_cast<Eigen::Index>(2 * k)) = rows[k].innovation;
     R.segment<2>(static_cast<Eigen::Index>(2 * k)) = rows[k].variance;
   }
-  const Eigen::MatrixXd S = H * P * H.transpose() + Eigen::MatrixXd(R.asDiagonal());
-  const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
+  const test::DenseUpdate expected(P, H, R.asDiagonal(), nu);
   s.belief.update(rows);
-  EXPECT_LT(distance(dense(s.belief.P()), P - K * S * K.transpose()), 1e-12);
-  EXPECT_LT(distance(s.belief.x(), x + K * nu), 1e-12);
+  EXPECT_LT(distance(dense(s.belief.P()), expected.cov), 1e-12);
+  EXPECT_LT(distance(s.belief.x(), x + test::times(expected.gain, nu)), 1e-12);
 }
 
 TEST(Belief, LawWithoutOutliersIsTheKalmanFilters)
@@ -90,19 +90,18 @@ TEST(Belief, GlintIsTheMixtureOfItsUpdates)
   for (const auto& g : law.components())
   {
     const Eigen::Matrix2d R = (g.factor * row.variance).asDiagonal();
-    const Eigen::Matrix2d S = H * P * H.transpose() + R;
-    const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
-    const double p = g.weight * std::exp(-0.5 * row.innovation.dot(S.inverse() * row.innovation)) /
-                     (math::kTwoPi * std::sqrt(S.determinant()));
-    const Eigen::VectorXd d = K * row.innovation;
+    const test::DenseUpdate one(P, H, R, row.innovation);
+    const double p = g.weight * std::exp(one.logDensity);
+    const Eigen::VectorXd d = test::times(one.gain, row.innovation);
     total += p;
     mean += p * d;
-    second += p * (P - K * S * K.transpose() + d * d.transpose());
+    second += p * (one.cov + test::times(d, d.transpose()));
   }
   mean /= total;
   EXPECT_NEAR(s.belief.update({row}), std::log(total), 1e-10);
   EXPECT_LT(distance(s.belief.x(), x + mean), 1e-11);
-  EXPECT_LT(distance(dense(s.belief.P()), second / total - mean * mean.transpose()), 1e-11);
+  EXPECT_LT(distance(dense(s.belief.P()), second / total - test::times(mean, mean.transpose())),
+            1e-11);
 }
 
 TEST(Belief, MoveIsLinearInTheMovedCoordinates)
@@ -115,7 +114,7 @@ TEST(Belief, MoveIsLinearInTheMovedCoordinates)
   s.belief.move(j, mean, F, Q);
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(P.rows(), P.rows());
   T.block<4, 4>(j, j) = F;
-  Eigen::MatrixXd expected = T * P * T.transpose();
+  Eigen::MatrixXd expected = test::transformed(T, P);
   expected.block<4, 4>(j, j) += Q;
   EXPECT_LT(distance(dense(s.belief.P()), expected), 1e-12);
   EXPECT_LT(distance(s.belief.x().segment<4>(j), mean), 1e-15);

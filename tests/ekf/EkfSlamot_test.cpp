@@ -1,6 +1,7 @@
 #include <slamot/filters/EkfSlamot.h>
 
 #include "dense.h"
+#include "denseKalman.h"
 #include "filterRig.h"
 
 #include <slamot/core/Error.h>
@@ -162,7 +163,7 @@ TEST(EkfSlamot, EqualsATextbookEkf)
           F.topLeftCorner<3, 3>() * P.topLeftCorner<3, 3>() * F.topLeftCorner<3, 3>().transpose();
       const Matrix3 Q = next.cov - own;
       x.head<3>() << next.mean.x, next.mean.y, next.mean.phi;
-      P = (F * P * F.transpose()).eval();
+      P = test::transformed(F, P);
       P.topLeftCorner<3, 3>() += Q;
     }
     if (step.landmarks)
@@ -187,9 +188,9 @@ TEST(EkfSlamot, EqualsATextbookEkf)
       }
       if (m > 0)
       {
-        const Eigen::MatrixXd K = P * H.transpose() * (H * P * H.transpose() + R).inverse();
-        x += K * nu;
-        P -= (K * H * P).eval();
+        const test::DenseUpdate update(P, H, R, nu);
+        x += test::times(update.gain, nu);
+        P = update.cov;
       }
       for (const auto& s : fresh)
       {
@@ -200,7 +201,7 @@ TEST(EkfSlamot, EqualsATextbookEkf)
         Eigen::MatrixXd G = Eigen::MatrixXd::Zero(old + 2, old);
         G.topRows(old).setIdentity();
         G.bottomLeftCorner<2, 3>() << 1, 0, now.y - p.y, 0, 1, p.x - now.x;
-        P = (G * P * G.transpose()).eval();
+        P = test::transformed(G, P);
         P.bottomRightCorner<2, 2>() +=
             Z * models::RangeBearing(s.rangeStd, s.bearingStd).noise() * Z.transpose();
         x.conservativeResize(old + 2);

@@ -1,6 +1,7 @@
 #include "ekf/Hypotheses.h"
 
 #include "dense.h"
+#include "denseKalman.h"
 #include "ekf/relate.h"
 #include "filterRig.h"
 
@@ -109,15 +110,14 @@ std::vector<double> byEnumeration(const Belief& belief, const std::vector<Ray>& 
     if (!rows.empty())
     {
       const Eigen::MatrixXd H = denseRows(rows, belief.P().size());
-      Eigen::MatrixXd S = H * dense(belief.P()) * H.transpose();
+      Eigen::MatrixXd R = Eigen::MatrixXd::Zero(H.rows(), H.rows());
       Eigen::VectorXd nu(H.rows());
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        S.diagonal().segment<2>(Eigen::Index(2 * i)) += rows[i].variance;
+        R.diagonal().segment<2>(Eigen::Index(2 * i)) = rows[i].variance;
         nu.segment<2>(Eigen::Index(2 * i)) = rows[i].innovation;
       }
-      weight *=
-          std::exp(-0.5 * nu.dot(S.inverse() * nu)) / std::sqrt((math::kTwoPi * S).determinant());
+      weight *= std::exp(test::logNormal(nu, test::transformed(H, dense(belief.P())) + R));
     }
     out.push_back(weight);
   };

@@ -1,12 +1,11 @@
 #include "rbpf/PoseUpdate.h"
 
 #include "LinearSighting.h"
+#include "denseKalman.h"
 
 #include <gtest/gtest.h>
 #include <slamot/math/gaussian.h>
 #include <slamot/math/random.h>
-
-#include <Eigen/LU>
 
 namespace slamot::filters::rbpf
 {
@@ -15,15 +14,9 @@ namespace
 using math::RandomStream;
 using models::RangeBearing;
 
-double logNormal(const Eigen::VectorXd& nu, const Eigen::MatrixXd& S)
-{
-  return -0.5 * (nu.dot(S.inverse() * nu) + std::log(S.determinant()) +
-                 static_cast<double>(nu.size()) * std::log(math::kTwoPi));
-}
-
 Matrix3 drawPrior(RandomStream& random, int rank)
 {
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3, std::max(rank, 1));
+  Matrix3 A = Matrix3::Zero();
   for (int i = 0; i < rank; ++i) A.col(i) << random.normal(), random.normal(), random.normal();
   return 0.01 * A * A.transpose();
 }
@@ -71,7 +64,7 @@ Dense draw(RandomStream& random, int landmarks, const Matrix3& P0, PoseUpdate& u
     d.H.block<2, 2>(2 * i, 3 + 2 * i) = s.byPoint;
     d.R.block<2, 2>(2 * i, 2 * i) = s.R;
     d.nu.segment<2>(2 * i) = s.nu;
-    d.atPrior += logNormal(s.nu, s.S(C));
+    d.atPrior += test::logNormal(s.nu, s.S(C));
   }
   return d;
 }
@@ -87,14 +80,12 @@ TEST(PoseUpdate, EqualsTheDenseJointGaussian)
     const Matrix3 P0 = drawPrior(random, rank);
     PoseUpdate update;
     const Dense d = draw(random, landmarks, P0, update);
-    const Eigen::MatrixXd S = d.H * d.P * d.H.transpose() + d.R;
-    const Eigen::MatrixXd K = d.P * d.H.transpose() * S.inverse();
-    const Eigen::MatrixXd P = d.P - K * d.H * d.P;
+    const test::DenseUpdate expected(d.P, d.H, d.R, d.nu);
     const auto r = update.solve(math::squareRoot(P0));
-    EXPECT_LE((r.shift - (K * d.nu).head<3>()).norm(), 1e-11);
-    EXPECT_LE((r.root * r.root.transpose() - P.topLeftCorner<3, 3>()).norm(),
+    EXPECT_LE((r.shift - test::times(expected.gain, d.nu).topRows<3>()).norm(), 1e-11);
+    EXPECT_LE((r.root * r.root.transpose() - expected.cov.topLeftCorner<3, 3>()).norm(),
               1e-11 * (1e-3 + P0.norm()));
-    EXPECT_NEAR(r.logGain, logNormal(d.nu, S) - d.atPrior, 1e-8 * (1 + std::abs(d.atPrior)));
+    EXPECT_NEAR(r.logGain, expected.logDensity - d.atPrior, 1e-8 * (1 + std::abs(d.atPrior)));
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "LinearSighting.h"
+#include "denseKalman.h"
 #include "sighting/Matching.h"
 
 #include <slamot/core/Step.h>
@@ -131,7 +132,7 @@ class ReferenceFilter
                    std::log(settings_.newDensity);
     if (paired == 0) return;
     Eigen::VectorXd nu(2 * paired);
-    Eigen::MatrixXd H(2 * paired, 3), S = Eigen::MatrixXd::Zero(2 * paired, 2 * paired);
+    Eigen::MatrixXd H(2 * paired, 3), R = Eigen::MatrixXd::Zero(2 * paired, 2 * paired);
     Eigen::Index at = 0;
     for (std::size_t j = 0; j < p.matches.size(); ++j)
     {
@@ -140,18 +141,16 @@ class ReferenceFilter
       const LinearSighting l = seen(p.belief.mean, m, scan.sightings[j]);
       nu.segment<2>(at) = l.nu;
       H.middleRows<2>(at) = l.byPose;
-      S.block<2, 2>(at, at) = l.S(m.P);
+      R.block<2, 2>(at, at) = l.S(m.P);
       at += 2;
       ++(l.near ? near : far);
     }
-    S += H * p.belief.cov * H.transpose();
-    const Eigen::MatrixXd K = p.belief.cov * H.transpose() * S.inverse();
-    p.logWeight -= 0.5 * (nu.dot(S.inverse() * nu) + std::log(S.determinant())) +
-                   static_cast<double>(paired) * std::log(math::kTwoPi);
-    const Vector3 shift = K * nu;
+    const test::DenseUpdate update(p.belief.cov, H, R, nu);
+    p.logWeight += update.logDensity;
+    const Vector3 shift = test::times(update.gain, nu);
     p.belief.mean = {p.belief.mean.x + shift[0], p.belief.mean.y + shift[1],
                      p.belief.mean.phi + shift[2]};
-    const Matrix3 P = p.belief.cov - K * H * p.belief.cov;
+    const Matrix3 P = update.cov;
     p.belief.cov = 0.5 * (P + P.transpose());
   }
 

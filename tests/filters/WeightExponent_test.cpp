@@ -30,7 +30,12 @@ Path run(double exponent, double resampleBelow)
   {
     const core::Update u = filter->process(step);
     out.poses.push_back(u.estimate.robot.mean);
-    if (u.diagnostics.ess) out.ess.push_back(*u.diagnostics.ess);
+    const core::Diagnostics& d = u.diagnostics;
+    EXPECT_EQ(d.ess.has_value(), d.largestWeight.has_value());
+    if (!d.ess) continue;
+    out.ess.push_back(*d.ess);
+    EXPECT_GE(*d.largestWeight, 1 / *d.ess - 1e-12);  // the mean of weights, by themselves
+    EXPECT_LE(*d.largestWeight, 1 / std::sqrt(*d.ess) + 1e-12);  // its square is one of the sum's
   }
   return out;
 }

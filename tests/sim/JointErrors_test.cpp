@@ -2,9 +2,8 @@
 #include <slamot/math/gaussian.h>
 #include <slamot/math/random.h>
 
-#include <Eigen/LU>
-
 #include "JointErrors.h"
+#include "denseKalman.h"
 
 namespace slamot::sim
 {
@@ -22,7 +21,7 @@ Matrix randomMatrix(math::RandomStream& random, int rows, int columns)
 Matrix randomCovariance(math::RandomStream& random, int n)
 {
   const Matrix L = randomMatrix(random, n, n);
-  return L * L.transpose() + 0.1 * Matrix::Identity(n, n);
+  return test::transformed(L, Matrix::Identity(n, n)) + 0.1 * Matrix::Identity(n, n);
 }
 
 Eigen::VectorXd randomVector(math::RandomStream& random, int n)
@@ -45,11 +44,12 @@ class Batch
   {
     Matrix H = Matrix::Zero(noise.size(), information_.rows());
     for (const auto& p : parts) H.middleCols(p.at, p.jacobian.cols()) += p.jacobian;
-    information_ += H.transpose() * noiseCovariance.inverse() * H;
-    vector_ += H.transpose() * noiseCovariance.inverse() * noise;
+    const Matrix weight = test::inverse(noiseCovariance);
+    information_ += test::transformed(H.transpose(), weight);
+    vector_ += test::times(H.transpose(), test::times(weight, noise));
   }
-  [[nodiscard]] Matrix covariance() const { return information_.inverse(); }
-  [[nodiscard]] Eigen::VectorXd errors() const { return covariance() * vector_; }
+  [[nodiscard]] Matrix covariance() const { return test::inverse(information_); }
+  [[nodiscard]] Eigen::VectorXd errors() const { return test::times(covariance(), vector_); }
 
  private:
   Matrix information_;
@@ -76,9 +76,10 @@ TEST(JointErrors, OfTwoStepsAndALandmarkIsTheInverseOfTheWholeInformation)
 
     JointErrors recursion;
     const int pose = recursion.add(P0, e0);
-    const Matrix inverse = Hm.inverse();
-    const int landmark = recursion.addFrom({{pose, -inverse * Hx}},
-                                           inverse * R0 * inverse.transpose(), inverse * n0);
+    const Matrix inverse = test::inverse(Hm);
+    const int landmark =
+        recursion.addFrom({{pose, -test::times(inverse, Hx)}}, test::transformed(inverse, R0),
+                          test::times(inverse, n0));
     recursion.move(pose, F, Q, w);
     recursion.observe({{{{pose, Gx}, {landmark, Gm}}, r1, n1}});
 
@@ -128,8 +129,8 @@ TEST(JointErrors, EqualsTheDenseFormulas)
       const auto [at, n] = pick();
       const Matrix J = randomMatrix(random, 2, n), R = randomCovariance(random, 2);
       states.emplace_back(recursion.addFrom({{at, J}}, R, Eigen::Vector2d::Zero()), 2);
-      const Matrix cross = J * dense.middleRows(at, n);
-      grow(cross, cross.middleCols(at, n) * J.transpose() + R);
+      const Matrix cross = test::times(J, dense.middleRows(at, n));
+      grow(cross, test::times(cross.middleCols(at, n), J.transpose()) + R);
     }
     else if (kind == 2)
     {
@@ -138,7 +139,7 @@ TEST(JointErrors, EqualsTheDenseFormulas)
       recursion.move(at, F, Q, Eigen::VectorXd::Zero(n));
       Matrix all = Matrix::Identity(dense.rows(), dense.rows());
       all.block(at, at, n, n) = F;
-      dense = (all * dense * all.transpose()).eval();
+      dense = test::transformed(all, dense);
       dense.block(at, at, n, n) += Q;
     }
     else
@@ -154,9 +155,8 @@ TEST(JointErrors, EqualsTheDenseFormulas)
       H.block(0, a.first, 2, a.second) = Ja;
       H.block(0, b.first, 2, b.second) += Jb;
       H.block(2, c.first, 1, c.second) = Jc;
-      const Matrix S =
-          H * dense * H.transpose() + Matrix(Eigen::Vector3d(0.5, 2, 0.3).asDiagonal());
-      dense = (dense - dense * H.transpose() * S.inverse() * H * dense).eval();
+      const Matrix R = Eigen::Vector3d(0.5, 2, 0.3).asDiagonal();
+      dense = test::DenseUpdate(dense, H, R, Eigen::VectorXd::Zero(3)).cov;
     }
     const double scale = dense.cwiseAbs().maxCoeff();
     for (const auto& [at, n] : states)
@@ -176,7 +176,8 @@ TEST(JointErrors, AKnownLandmarkAddsTheInformationOfItsSighting)
   const int landmark = recursion.add(Matrix::Zero(2, 2), Vector2::Zero());
   recursion.observe({{{{pose, J}, {landmark, -J.leftCols(2)}}, r, Vector2::Zero()}});
   const Matrix R = r.asDiagonal();
-  const Matrix expected = (P.inverse() + J.transpose() * R.inverse() * J).inverse();
+  const Matrix expected =
+      test::inverse(test::inverse(P) + test::transformed(J.transpose(), test::inverse(R)));
   EXPECT_LT((recursion.block(pose, 3) - expected).norm(), 1e-14);
   EXPECT_EQ(recursion.block(landmark, 2).norm(), 0);
 }

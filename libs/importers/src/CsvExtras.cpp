@@ -1,5 +1,7 @@
 #include "CsvExtras.h"
 
+#include "fileExists.h"
+
 #include <slamot/importers/TextTable.h>
 
 #include <charconv>
@@ -11,12 +13,6 @@ namespace
 {
 namespace fs = std::filesystem;
 using core::ExitStatus;
-
-bool exists(const std::string& path)
-{
-  std::error_code error;
-  return fs::exists(path, error);
-}
 
 /// The number in `<prefix><number><suffix>`; none if the text is not of that form.
 std::optional<int> numberIn(std::string_view s, std::string_view prefix, std::string_view suffix)
@@ -94,7 +90,7 @@ core::FieldOfView readFov(const std::string& folder)
 {
   core::FieldOfView fov;
   const std::string path = folder + "/fov.csv";
-  if (!exists(path)) return fov;
+  if (!fileExists(path)) return fov;
   TextTable table = TextTable::csv(path);
   table.matchHeader({{"range_min", "range_max", "bearing_min", "bearing_max"}});
   if (!table.next()) table.fail(ExitStatus::kUnreadable, "holds no row", "write one row");
@@ -111,7 +107,7 @@ core::Starts readStarts(const std::string& folder)
 {
   core::Starts starts;
   const std::string path = folder + "/start.csv";
-  if (!exists(path)) return starts;
+  if (!fileExists(path)) return starts;
   TextTable table = TextTable::csv(path);
   table.matchHeader({{"object", "x", "y", "theta", "vx", "vy", "ax", "ay", "std_x", "std_y",
                       "std_theta", "std_vx", "std_vy", "std_ax", "std_ay"}});

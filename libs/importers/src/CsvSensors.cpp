@@ -1,18 +1,9 @@
 #include "CsvSensors.h"
 
-#include <filesystem>
+#include "fileExists.h"
 
 namespace slamot::importers
 {
-namespace
-{
-bool exists(const std::string& path)
-{
-  std::error_code error;
-  return std::filesystem::exists(path, error);
-}
-}  // namespace
-
 void SensorRows::advance()
 {
   time_.reset();
@@ -40,9 +31,9 @@ std::vector<std::unique_ptr<SensorRows>> openSensors(const std::string& folder, 
   std::vector<std::unique_ptr<SensorRows>> out;
   const std::string sightings = folder + "/landmark_sightings.csv", blobs = folder + "/blobs.csv",
                     lasers = folder + "/scans.csv";
-  if (exists(sightings)) out.push_back(sightingRows(sightings, startTime, fov, associations));
-  if (exists(blobs)) out.push_back(blobRows(blobs, startTime, fov));
-  if (exists(lasers)) out.push_back(laserRows(lasers, startTime));
+  if (fileExists(sightings)) out.push_back(sightingRows(sightings, startTime, fov, associations));
+  if (fileExists(blobs)) out.push_back(blobRows(blobs, startTime, fov));
+  if (fileExists(lasers)) out.push_back(laserRows(lasers, startTime));
   return out;
 }
 }  // namespace slamot::importers

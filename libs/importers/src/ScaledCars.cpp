@@ -12,8 +12,8 @@ namespace
 {
 using TrueHeading = ScaledCarsOptions::TrueHeading;
 
-constexpr double kLongestTruthGap = 0.1;  // [s]
-constexpr double kWorstFit = 0.03;        // [m/s], of sideways speed; sound headings leave 0.02
+constexpr double kLongestPoseGap = 0.1;  // [s]
+constexpr double kWorstFit = 0.03;       // [m/s], of sideways speed; sound headings leave 0.02
 
 std::string fixed(const char* format, double value)
 {
@@ -88,7 +88,7 @@ class ScaledCars : public Import
     starts_.time = time_;
     noteTruth();
     if (!options_.startFromTruth) return;
-    const auto pose = ego_.at(time_, kLongestTruthGap);
+    const auto pose = ego_.at(time_, kLongestPoseGap);
     if (!pose || !pose->headingKnown)
       throw core::Error(core::ExitStatus::kUnreadable, folder_ + "/ego_pose.csv",
                         pose ? "the true heading at the first odometry is not known"
@@ -97,7 +97,7 @@ class ScaledCars : public Import
     starts_.robot = startAt(*pose);
     if (!options_.targetStarts) return;
     for (const auto& [id, path] : targets_)
-      if (const auto at = path.at(time_, kLongestTruthGap)) starts_.targets[id] = startAt(*at);
+      if (const auto at = path.at(time_, kLongestPoseGap)) starts_.targets[id] = startAt(*at);
   }
 
   [[nodiscard]] static core::ObjectStart startAt(const eval::TimedPose& at)
@@ -119,10 +119,10 @@ class ScaledCars : public Import
 
   void noteTruth()
   {
-    if (auto pose = ego_.at(time_, kLongestTruthGap))
+    if (auto pose = ego_.at(time_, kLongestPoseGap))
       truth_.robot.poses.push_back({time_, pose->pose, pose->headingKnown});
     for (const auto& [id, path] : targets_)
-      if (auto pose = path.at(time_, kLongestTruthGap))
+      if (auto pose = path.at(time_, kLongestPoseGap))
         truth_.targets[id].poses.push_back({time_, pose->pose, pose->headingKnown});
   }
 

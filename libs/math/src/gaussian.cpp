@@ -1,7 +1,7 @@
+#include <slamot/math/eigensystem.h>
 #include <slamot/math/gaussian.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -38,11 +38,9 @@ Matrix3 squareRoot(const Matrix3& cov)
 {
   if (!cov.allFinite()) throw std::domain_error("covariance is not finite");
   // Eigenvectors rather than Cholesky: a control with two noises makes a rank of two.
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(cov);
-  const Vector3 d = eigen.eigenvalues();
+  const auto [d, V] = eigensystem<3>(cov);
   if (d[0] < -1e-8 * std::max(d[2], 1e-300))
     throw std::domain_error("covariance has a negative eigenvalue");
-  const Matrix3& V = eigen.eigenvectors();
   return V * d.cwiseMax(0.0).cwiseSqrt().asDiagonal() * V.transpose();
 }
 
@@ -62,7 +60,7 @@ double asymmetry(const Eigen::Ref<const Eigen::MatrixXd>& m)
 double smallestEigenvalue(const Eigen::Ref<const Eigen::MatrixXd>& m)
 {
   if (!m.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return eigensystem<Eigen::Dynamic>(m).values[0];
 }
 
 double mahalanobisSquared(const Eigen::Ref<const Eigen::VectorXd>& e,

@@ -1,5 +1,6 @@
 #include <slamot/models/ManoeuvringTarget.h>
 
+#include <slamot/math/eigensystem.h>
 #include <slamot/models/stretch.h>
 
 #include <Eigen/Cholesky>
@@ -422,21 +423,21 @@ namespace
 /// Where models have less in common with all else than was assumed.
 Matrix positive(const Matrix& P)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(P);
-  if (eigen.eigenvalues()[0] >= 0) return P;
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-         eigen.eigenvectors().transpose();
+  return math::eigensystem<6>(P).values[0] >= 0 ? P : math::withoutNegative<6>(P);
 }
 
 /// ln N(nu; 0, S) but for a constant; S is brought back above a tenth of `least` where it is not.
 double logDensity(const Vector2& nu, Matrix2& S, const Matrix2& least)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix2> own(S - 0.1 * least);
-  if (!(own.eigenvalues()[0] > 0))
-    S = 0.1 * least + own.eigenvectors() * own.eigenvalues().cwiseMax(0).asDiagonal() *
-                          own.eigenvectors().transpose();
-  const double det = S.determinant();
-  return -0.5 * (nu.dot(S.inverse() * nu) + std::log(det));
+  const Matrix2 own = S - 0.1 * least;
+  if (!(own.trace() > 0 && own.determinant() > 0))
+  {
+    const math::Ellipse e = math::ellipse(own);
+    const Matrix2 R = rotation(e.direction);
+    S = 0.1 * least +
+        R * Vector2(e.longer * e.longer, e.shorter * e.shorter).asDiagonal() * R.transpose();
+  }
+  return -0.5 * (nu.dot(S.inverse() * nu) + std::log(S.determinant()));
 }
 
 /// Weights times exp(logs), with sum 1; the smallest stay above what a switch can bring back.

@@ -1,5 +1,7 @@
 #include <slamot/team/teamFigures.h>
 
+#include "series.h"
+
 #include <slamot/math/statistics.h>
 
 #include <algorithm>
@@ -16,19 +18,7 @@ using results::Range;
 using results::Series;
 using Kind = Series::Kind;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeast = 1e-6;  // shown on a logarithmic axis
-
-Series series(Kind kind, const std::string& title, Ink ink)
-{
-  return {kind, title, ink, {}, {}, {}, {}};
-}
-
-void append(Series& s, double x, double y)
-{
-  s.x.push_back(x);
-  s.y.push_back(y);
-}
 
 /// From the first to the last row of all.
 Range clockOf(const TeamView& team)

@@ -1,5 +1,7 @@
 #include <slamot/team/teamFigures.h>
 
+#include "series.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -14,19 +16,7 @@ using results::Plot;
 using results::Series;
 using Kind = Series::Kind;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFusionsInAll = 12, kFusionsOfEach = 6;
-
-void append(Series& s, double x, double y)
-{
-  s.x.push_back(x);
-  s.y.push_back(y);
-}
-
-Series series(Kind kind, const std::string& title, Ink ink)
-{
-  return {kind, title, ink, {}, {}, {}, {}};
-}
 
 Series pathOf(const TeamView::Robot& robot, Ink ink)
 {

@@ -4,9 +4,9 @@
 #include "updateOneByOne.h"
 
 #include <slamot/core/Error.h>
+#include <slamot/math/eigensystem.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace slamot::filters::ekf
 {
@@ -272,10 +272,10 @@ void Belief::take(const Eigen::MatrixXd& W, const Eigen::MatrixXd& U, const Eige
                   const Eigen::MatrixXd& reduction, double scale)
 {
   x_.noalias() += W * gain;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduction);
-  const Eigen::MatrixXd turned = W * eigen.eigenvectors();
+  const auto eigen = math::eigensystem<Eigen::Dynamic>(reduction);
+  const Eigen::MatrixXd turned = W * eigen.vectors;
   // Inverse covariance intersection and glint can add where they reduce elsewhere.
-  const Eigen::VectorXd& values = eigen.eigenvalues();
+  const Eigen::VectorXd& values = eigen.values;
   if (values.minCoeff() < 0)
     P_.update(turned * values.cwiseMin(0).cwiseAbs().cwiseSqrt().asDiagonal(), 1);
   P_.update(turned * values.cwiseMax(0).cwiseSqrt().asDiagonal(), -1);

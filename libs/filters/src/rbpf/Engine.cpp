@@ -110,6 +110,7 @@ core::Update EngineOf<Motion>::process(const core::Step& step)
   ++stepNumber_;
   kept_.clear();
   diagnostics_.ess.reset();
+  diagnostics_.largestWeight.reset();
   diagnostics_.resampled = false;
   std::vector<core::Pairing> pairs;
   particles_.predictAndUpdate = [&]
@@ -219,6 +220,7 @@ void EngineOf<Motion>::normalise()
     squares += w * w;
   }
   diagnostics_.ess = 1.0 / squares;
+  diagnostics_.largestWeight = weights_[best_];
 }
 
 template <class Motion>

@@ -2,7 +2,8 @@
 
 #include "sighting/intersectionOf.h"
 
-#include <Eigen/Eigenvalues>
+#include <slamot/math/eigensystem.h>
+
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -98,13 +99,13 @@ struct Root
 
   explicit Root(const MatrixXd& m)
   {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(m);
-    const VectorXd values = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    const auto eigen = math::eigensystem<Eigen::Dynamic>(m);
+    const VectorXd values = eigen.values.cwiseMax(0.0).cwiseSqrt();
     const double least = 1e-7 * values.maxCoeff();
     const VectorXd inverses =
         values.unaryExpr([least](double v) { return v > least ? 1 / v : 0.0; });
-    root = eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
-    inverse = eigen.eigenvectors() * inverses.asDiagonal() * eigen.eigenvectors().transpose();
+    root = eigen.vectors * values.asDiagonal() * eigen.vectors.transpose();
+    inverse = eigen.vectors * inverses.asDiagonal() * eigen.vectors.transpose();
   }
 };
 

@@ -1,5 +1,7 @@
 #include "Settings.h"
 
+#include "resampling.h"
+
 #include <slamot/math/statistics.h>
 
 namespace slamot::filters::rbpf
@@ -13,21 +15,6 @@ Enum chosen(core::Params& p, const std::string& key, const std::vector<std::stri
 {
   const std::string name = p.choice(key, names, otherwise);
   return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-void readResampling(core::Params& p, Settings& s)
-{
-  using PF = ::mrpt::bayes::CParticleFilter;
-  s.resampling.BETA = p.inRange("resample_below_ess", 0, 1, 0.5);
-  const std::string scheme =
-      p.choice("resampling", {"systematic", "stratified", "residual", "multinomial"}, "systematic");
-  s.resampling.resamplingMethod = scheme == "systematic"   ? PF::prSystematic
-                                  : scheme == "stratified" ? PF::prStratified
-                                  : scheme == "residual"   ? PF::prResidual
-                                                           : PF::prMultinomial;
-  s.resampling.PF_algorithm = s.isInformed() ? PF::pfOptimalProposal : PF::pfStandardProposal;
-  s.resampling.adaptiveSampleSize = false;
-  s.resampling.sampleSize = static_cast<unsigned>(s.particles);
 }
 
 IntensitySettings readIntensity(core::Params& p, double detection)
@@ -131,7 +118,8 @@ Settings Settings::from(core::Params& p, const Preset& preset)
   if (intensity) s.intensity = readIntensity(p, s.detection);
   s.targetSet = readTargetSet(p);
   checkTogether(p, s);
-  readResampling(p, s);
+  s.resampling = resamplingFrom(p, s.particles);
+  if (s.isInformed()) s.resampling.PF_algorithm = ::mrpt::bayes::CParticleFilter::pfOptimalProposal;
   return s;
 }
 }  // namespace slamot::filters::rbpf

@@ -3,8 +3,8 @@
 #include "sighting/kinematicPrediction.h"
 
 #include <slamot/core/Error.h>
+#include <slamot/math/eigensystem.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
 
@@ -22,16 +22,25 @@ namespace
 {
 constexpr int kRobot = core::RobotAndTarget::kRobot;
 
+/// Of a covariance, where it is not exact.
+template <int N>
+Eigen::Matrix<double, N, N> inverseOf(const Eigen::Matrix<double, N, N>& cov)
+{
+  const auto [values, vectors] = math::eigensystem<N>(cov);
+  const double least = 1e-14 * values[N - 1];
+  const Eigen::Matrix<double, N, 1> inverses =
+      values.unaryExpr([least](double v) { return v > least ? 1 / v : 0.0; });
+  return vectors * inverses.asDiagonal() * vectors.transpose();
+}
+
 /// The linear map, near the identity, that gives errors of covariance `from` that of `to`.
 Matrix3 transport(const Matrix3& from, const Matrix3& to)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(from);
-  const Vector3 values = eigen.eigenvalues();
+  const auto [values, vectors] = math::eigensystem<3>(from);
   Vector3 inverses = Vector3::Zero();
   for (int j = 0; j < 3; ++j)
     if (values[j] > 1e-12 * values[2]) inverses[j] = 1 / std::sqrt(values[j]);
-  return math::squareRoot(to) * eigen.eigenvectors() * inverses.asDiagonal() *
-         eigen.eigenvectors().transpose();
+  return math::squareRoot(to) * vectors * inverses.asDiagonal() * vectors.transpose();
 }
 }  // namespace
 
@@ -228,8 +237,7 @@ void EngineOf<Motion>::shiftParticle(Particle<State>& p, std::optional<std::size
     const auto now = Motion::kinematics(s);
     const Eigen::Matrix<double, State::kSize, kTarget> PJt = s.P * now.jacobian.transpose();
     const Eigen::Matrix<double, kTarget, kTarget> Y = now.jacobian * PJt;
-    const Eigen::Matrix<double, State::kSize, kTarget> G =
-        Y.completeOrthogonalDecomposition().solve(PJt.transpose()).transpose();
+    const Eigen::Matrix<double, State::kSize, kTarget> G = PJt * inverseOf<kTarget>(Y);
     s.x += G * (value - now.value);
     s.x[Motion::kAngle] = math::wrapToPi(s.x[Motion::kAngle]);
     s.P += G * (cov - Y) * G.transpose();

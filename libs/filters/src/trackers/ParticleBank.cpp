@@ -1,6 +1,7 @@
 #include "ParticleBank.h"
 
 #include "LogDensity.h"
+#include "resampling.h"
 
 #include <mrpt/random/RandomGenerators.h>
 
@@ -23,20 +24,10 @@ struct Root
 
 ParticleBank::Options ParticleBank::Options::from(core::Params& p)
 {
-  using PF = ::mrpt::bayes::CParticleFilter;
   Options o{};
   o.particles = p.integer("particles", 1, 1'000'000, 300);
   o.weightExponent = p.inRange("weight_exponent", 0, 1, 1.0);
-  o.resampling.BETA = p.inRange("resample_below_ess", 0, 1, 0.5);
-  const std::string scheme =
-      p.choice("resampling", {"systematic", "stratified", "residual", "multinomial"}, "systematic");
-  o.resampling.resamplingMethod = scheme == "systematic"   ? PF::prSystematic
-                                  : scheme == "stratified" ? PF::prStratified
-                                  : scheme == "residual"   ? PF::prResidual
-                                                           : PF::prMultinomial;
-  o.resampling.PF_algorithm = PF::pfStandardProposal;
-  o.resampling.adaptiveSampleSize = false;
-  o.resampling.sampleSize = static_cast<unsigned>(o.particles);
+  o.resampling = resamplingFrom(p, o.particles);
   return o;
 }
 
