@@ -13,7 +13,7 @@ void readShard(const std::string& text, study::ExecuteOptions& options)
 {
   char rest = 0;
   const int read = std::sscanf(text.c_str(), "%d/%d%c", &options.shard, &options.shards, &rest);
-  if (read != 2 || options.shards < 1 || options.shard < 0 || options.shard > options.shards)
+  if (read != 2 || options.shards < 1 || options.shard < 1 || options.shard > options.shards)
     throw Error(ExitStatus::kConfig, "--shard " + text, "is not I/N with I from 1 to N",
                 "write --shard 1/8 to --shard 8/8");
 }

@@ -50,8 +50,11 @@ void check(Eigen::Index n)
       EXPECT_LT(left.norm(), 1e-12);
       EXPECT_NEAR(v.norm(), 1, 1e-12);
     }
-    const auto left = eigensystem<N>(withoutNegative<N>(m)).values;
-    EXPECT_LT((left - wanted.cwiseMax(0)).norm(), 1e-12);
+    if constexpr (N == 4 || N == 6)
+    {
+      const auto left = eigensystem<N>(withoutNegative<N>(m)).values;
+      EXPECT_LT((left - wanted.cwiseMax(0)).norm(), 1e-12);
+    }
   }
 }
 }  // namespace

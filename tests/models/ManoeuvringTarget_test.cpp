@@ -219,6 +219,32 @@ TEST(ManoeuvringTarget, BankFollowsWhatOthersDoToTheWhole)
   EXPECT_LT((s.P - wanted.P).norm(), 1e-8);
 }
 
+// As from a log that tells a start without deviations.
+TEST(ManoeuvringTarget, StartThatIsKnownExactlyStaysFinite)
+{
+  using Start = core::ObjectStart;
+  Start told;
+  for (const auto& [field, value] :
+       {std::pair{Start::kX, 5.0}, {Start::kY, 0.5}, {Start::kVx, 1.0}, {Start::kVy, 0.0}})
+    told.value[field] = value;
+  for (const auto& modes :
+       {kAll, std::vector{Mode::kVelocity}, std::vector{Mode::kVelocity, Mode::kAcceleration}})
+  {
+    const Target motion(params(modes));
+    Target::State s = motion.start(told);
+    EXPECT_EQ(s.P.topLeftCorner(4, 4).norm(), 0);
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto t = motion.move(s, 0.1);
+      EXPECT_TRUE(t.F.allFinite() && t.Q.allFinite() && s.x.allFinite() && s.P.allFinite());
+    }
+    EXPECT_NEAR(s.x[0], 5.3, 1e-3);
+    EXPECT_GE(math::eigensystem<6>(s.P).values[0], -1e-12);
+  }
+  const Stretch<4> none = stretch<4>(Eigen::Matrix4d::Zero(), Eigen::Matrix4d::Zero(), true);
+  EXPECT_TRUE(none.T.allFinite() && none.left.isZero());
+}
+
 TEST(ManoeuvringTarget, StretchLeadsFromOneCovarianceToTheOther)
 {
   math::RandomStream random{5};

@@ -53,6 +53,16 @@ TEST(PaperSpec, QuickTakesItsOwnSettingsAndLeavesOutWhatIsNotInIt)
   EXPECT_FALSE(spec.sections[1].isRun());
 }
 
+TEST(PaperSpec, WhatIsSetCountsMoreThanWhatQuickSets)
+{
+  const TinyPaper paper;
+  const PaperSpec spec = paper.spec({"section.main.set.study.seeds=3"}, true);
+  EXPECT_EQ(spec.sections[0].study.seeds, 3);
+  const std::vector<std::string> once{"vary.landmarks.values=8", "study.seeds=3"};
+  EXPECT_TRUE(std::is_permutation(spec.sections[0].set.begin(), spec.sections[0].set.end(),
+                                  once.begin(), once.end()));
+}
+
 TEST(PaperSpec, SetChangesASectionsStudy)
 {
   const TinyPaper paper;

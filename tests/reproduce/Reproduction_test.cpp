@@ -1,7 +1,9 @@
 #include <slamot/core/Error.h>
 #include <slamot/filters/registerAll.h>
 
+#include <filesystem>
 #include <regex>
+#include <set>
 
 #include "tinyPaper.h"
 
@@ -69,6 +71,25 @@ TEST_F(Reproduce, SectionsOfOneStudyShareItsRuns)
   EXPECT_NE(parted.studies()[0].folder, parted.studies()[1].folder);
 }
 
+TEST_F(Reproduce, SectionsWithTheSameSettingsShareTheirRunsAndOthersDoNot)
+{
+  const auto& folder = paper.study().folder();
+  std::filesystem::create_directories(paper.file("other"));
+  for (const char* file : {"study.ini", "world.ini", "filter.ini", "odometry.ini"})
+    std::filesystem::copy(paper.file(file), paper.file(std::string("other/") + file));
+  folder.write("reproduce.more.ini",
+               "[paper]\ntitle = More\ncitation = Nobody.\nsections = a, b, c, d\n"
+               "[section.a]\nstudy = study.ini\n[section.b]\nstudy = study.ini\n"
+               "set.study.seeds = 2\n[section.c]\nstudy = study.ini\nset.study.seeds = 2\n"
+               "[section.d]\nstudy = other/study.ini\n");
+  const Reproduction all("more", paper.file("."), {});
+  ASSERT_EQ(all.studies().size(), 3u);
+  EXPECT_EQ(all.studyOf(0, 1), all.studyOf(0, 2));
+  std::set<std::string> folders;
+  for (const StudyRun& s : all.studies()) folders.insert(s.folder);
+  EXPECT_EQ(folders.size(), 3u);
+}
+
 TEST_F(Reproduce, PageHoldsTablesFiguresAndVerdicts)
 {
   Reproduction all = paper.reproduction();
@@ -84,7 +105,7 @@ TEST_F(Reproduce, PageHoldsTablesFiguresAndVerdicts)
   EXPECT_TRUE(contains(boxOf(html, "tiny-real"), "Nobody has its data."));
   EXPECT_TRUE(contains(html, "<tr class=\"published\">"));
   EXPECT_TRUE(contains(html, "&quot;Nothing&quot; &lt;2013&gt;"));
-  EXPECT_TRUE(contains(html, "slamot study config-ini/study.ini"));
+  EXPECT_TRUE(contains(html, "slamot study study.ini"));
   std::size_t pictures = 0;
   for (std::size_t at = 0; (at = html.find("<svg ", at)) != std::string::npos; ++at) ++pictures;
   EXPECT_EQ(pictures, 2u);

@@ -178,6 +178,31 @@ TEST_F(Judge, GrowthIsARatioOfDifferences)
             Status::kMet);
 }
 
+// -1 is below 1, but not because the first grew less.
+TEST_F(Judge, ADivisorThatMayBeNegativeDecidesNothing)
+{
+  const char* growth =
+      "(robot_mean_m(joint, landmarks=3) - target_mean_m(joint, landmarks=3)) / "
+      "(robot_mean_m(odometry, landmarks=3) - target_mean_m(odometry, landmarks=3)) < 1";
+  set(0, 0, {3.0, 4.0, 5.0, 6.0});
+  set(0, 0, {1.0, 2.0, 3.0, 4.0}, "target_mean_m");
+  set(0, 1, {5.0, 5.0, 5.0, 5.0});
+  set(0, 1, {7.0, 7.0, 7.0, 7.0}, "target_mean_m");
+  EXPECT_EQ(status(growth), Status::kOpen);
+  EXPECT_EQ(verdict({growth}).checks[0].remark, "what it is divided by may be 0 or less");
+  set(0, 1, {-9.0, 1.0, 2.0, 3.5}, "target_mean_m");  // the divisor's interval reaches below 0
+  set(0, 1, {-9.5, 1.5, 2.5, 4.0});
+  EXPECT_EQ(verdict({growth}).checks[0].remark, "what it is divided by may be 0 or less");
+}
+
+TEST_F(Judge, WhatOnlySomeRunsHaveDecidesNothingAndIsSaid)
+{
+  set(0, 0, {1.0, {}, 1.01, 0.99});
+  const Check check = verdict({"robot_mean_m(joint, landmarks=3) < 2"}).checks.at(0);
+  EXPECT_EQ(check.status, Status::kOpen);
+  EXPECT_NE(check.measured.find("(3 of 4 runs)"), std::string::npos) << check.measured;
+}
+
 TEST_F(Judge, OpenAxesAreCheckedInEachCell)
 {
   set(0, 0, {1.0, 1.1, 0.9, 1.0});

@@ -117,6 +117,7 @@ TEST(StudyCommand, MergedShardsEqualOneRun)
 TEST(StudyCommand, ErrorsAreOneLineAndHaveTheirStatus)
 {
   const TinyStudy study;
+  EXPECT_EQ(slamot(study, {"-o", study.out("x"), "--shard", "0/2"}), 1);
   EXPECT_EQ(slamot(study, {"-o", study.out("x"), "--shard", "3/2"}), 1);
   EXPECT_EQ(study.folder().read("stderr"),
             "slamot: error: --shard 3/2: is not I/N with I from 1 to N; write --shard 1/8 to "

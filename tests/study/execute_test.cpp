@@ -131,6 +131,12 @@ TEST_F(Execute, StaleAndDamagedRecordsAreNoticedAndMadeAnew)
   EXPECT_EQ(result.made, 1u);
   EXPECT_EQ(texts(plan, {study.out("out")}), expected);
 
+  std::string failed = study.folder().read(path);
+  failed.replace(failed.find("\"error\": \"\""), 11, "\"error\": \"odd\"");  // of status 0
+  study.folder().write(path, failed);
+  EXPECT_EQ(collect(plan, {study.out("out")}).stale, 1u);
+  EXPECT_EQ(run(plan, "out").made, 1u);
+
   const Plan other = study.plan({"method.joint.rbpf-slamot.particles=7"});
   EXPECT_EQ(collect(other, {study.out("out")}).stale, 8u);  // the other method's are as before
   result = run(other, "out");

@@ -57,12 +57,6 @@ double asymmetry(const Eigen::Ref<const Eigen::MatrixXd>& m)
   return (m - m.transpose()).cwiseAbs().maxCoeff();
 }
 
-double smallestEigenvalue(const Eigen::Ref<const Eigen::MatrixXd>& m)
-{
-  if (!m.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  return eigensystem<Eigen::Dynamic>(m).values[0];
-}
-
 double mahalanobisSquared(const Eigen::Ref<const Eigen::VectorXd>& e,
                           const Eigen::Ref<const Eigen::MatrixXd>& P)
 {

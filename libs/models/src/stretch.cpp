@@ -3,6 +3,7 @@
 #include <slamot/math/eigensystem.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace slamot::models
 {
@@ -23,7 +24,8 @@ Stretch<N> stretch(const Eigen::Matrix<double, N, N>& from, const Eigen::Matrix<
     if (a.values[i] > kExact * a.values[N - 1]) inverse[i] = 1 / root[i];
   const Matrix R = a.vectors * root.asDiagonal() * a.vectors.transpose();
   const Matrix I = a.vectors * inverse.asDiagonal() * a.vectors.transpose();
-  const Matrix some = to + kExact * to.trace() * Matrix::Identity();
+  // Not singular where all is known exactly either.
+  const Matrix some = to + kExact * std::max(to.trace(), 1e-40) * Matrix::Identity();
   const auto g = math::eigensystem<N>(symmetric(R * some.inverse() * R));
   Vector by = Vector::Zero();
   for (int i = 0; i < N; ++i)

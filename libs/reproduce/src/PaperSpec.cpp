@@ -29,16 +29,25 @@ std::vector<std::string> names(core::Params& p, const std::string& key)
   return out;
 }
 
-/// Keys `set.Section.key` and `quick.Section.key` as assignments, the latter if they count.
+/// Keys `set.Section.key` and `quick.Section.key` as assignments, the latter if they count; what
+/// the command line sets counts most.
 std::vector<std::string> overrides(core::Params& p, const PaperSpec::Options& options)
 {
-  std::vector<std::string> out, quick;
+  const auto isTold = [&](const std::string& key)
+  {
+    const std::string told = p.section() + ".set." + key + "=";
+    return std::any_of(options.set.begin(), options.set.end(),
+                       [&](const std::string& s) { return s.rfind(told, 0) == 0; });
+  };
+  std::vector<std::string> out;
   for (const std::string& key : p.keys())
   {
-    if (key.rfind("set.", 0) == 0) out.push_back(key.substr(4) + "=" + p.text(key));
-    if (key.rfind("quick.", 0) == 0) quick.push_back(key.substr(6) + "=" + p.text(key));
+    const bool isSet = key.rfind("set.", 0) == 0, isQuick = key.rfind("quick.", 0) == 0;
+    if (!isSet && !isQuick) continue;
+    const std::string name = key.substr(key.find('.') + 1), value = p.text(key);
+    const bool hasQuick = options.isQuick && p.has("quick." + name) && !isTold(name);
+    if (isSet != hasQuick) out.push_back(name + "=" + value);
   }
-  if (options.isQuick) out.insert(out.end(), quick.begin(), quick.end());
   if (options.firstSeed) out.push_back("study.first_seed=" + std::to_string(*options.firstSeed));
   return out;
 }
@@ -64,6 +73,9 @@ study::StudySpec readStudy(core::Params& p, const fs::path& folder, Section& sec
   const std::string path = (folder / section.studyPath).string();
   if (!fs::is_regular_file(path))
     p.fail("study", path + " can't be read", "studies are relative to this file");
+  // From where the shipped ones are named; of others, from where the paper is.
+  const bool isShipped = folder.filename() == "config-ini";
+  section.shownPath = (isShipped ? "config-ini/" : "") + section.studyPath;
   section.studyPath = path;
   study::StudySpec asFiled = study::StudySpec::load(path);
   section.study = section.set.empty() ? asFiled : study::StudySpec::load(path, section.set);

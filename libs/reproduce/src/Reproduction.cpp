@@ -76,17 +76,18 @@ void Reproduction::layOut(const PaperSpec& paper, const std::string& within)
     places.emplace_back();
     pictures.emplace_back();
     if (!section.isRun()) continue;
+    const auto isSame = [&](const StudyRun& s) {
+      return s.path == section.studyPath && s.set == section.set && s.folder.rfind(within, 0) == 0;
+    };
+    const auto same = std::find_if(studies_.begin(), studies_.end(), isSame);
+    places.back() = static_cast<std::size_t>(same - studies_.begin());
+    if (same != studies_.end()) continue;
     std::string folder = within + folderOf(section.studyPath);
-    for (std::size_t i = 0; i < studies_.size(); ++i)
-    {
-      if (studies_[i].folder != folder) continue;
-      if (studies_[i].set == section.set) places.back() = i;
-      // The same study with other settings: its records are others.
-      if (!places.back()) folder += "." + section.name;
-    }
-    if (places.back()) continue;
-    places.back() = studies_.size();
-    studies_.push_back({folder, section.set, std::make_unique<study::Plan>(section.study), {}});
+    const auto isTaken = [&](const StudyRun& s) { return s.folder == folder; };
+    // Another study, or the same with other settings: its records are others.
+    while (std::any_of(studies_.begin(), studies_.end(), isTaken)) folder += "." + section.name;
+    studies_.push_back(
+        {folder, section.studyPath, section.set, std::make_unique<study::Plan>(section.study), {}});
   }
 }
 

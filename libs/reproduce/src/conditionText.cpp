@@ -5,8 +5,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "measured.h"
-
 namespace slamot::reproduce
 {
 namespace
@@ -77,11 +75,16 @@ std::string wordsOf(const Claim::Part& part, const study::Plan& plan)
   return out;
 }
 
-std::string measuredText(const math::MeanInterval& value, const Condition& condition)
+std::string measuredText(const Measured& measured, const Condition& condition)
 {
+  const math::MeanInterval& value = measured.value;
   const int d = decimalsFor(condition);
-  if (value.count == 1) return fixed(value.mean, d) + " (one run)";
-  return fixed(value.mean, d) + " ± " + fixed(value.halfWidth95, d);
+  std::string of;
+  if (value.count < measured.seeds)
+    of = " (" + std::to_string(value.count) + " of " + std::to_string(measured.seeds) + " runs)";
+  else if (value.count == 1)
+    of = " (one run)";
+  return fixed(value.mean, d) + (value.count > 1 ? " ± " + fixed(value.halfWidth95, d) : "") + of;
 }
 
 std::string claimedText(const Condition& condition)
@@ -108,8 +111,11 @@ std::string claimedText(const Condition& condition)
   return published;
 }
 
-std::string remarkOf(const math::MeanInterval& value, const Bound& bound, Status status)
+std::string remarkOf(const Measured& measured, const Condition& condition, Status status)
 {
+  const math::MeanInterval& value = measured.value;
+  const Bound& bound = condition.bound;
+  if (!measured.isByPositive) return "what it is divided by may be 0 or less";
   const bool isPublished = bound.deviation || bound.runs;
   if (!isPublished) return {};
   const double off = value.mean - bound.published;
@@ -124,8 +130,9 @@ std::string remarkOf(const math::MeanInterval& value, const Bound& bound, Status
   if (bound.runs)
   {
     const double half = predictionHalf(value, *bound.runs);
+    const int d = decimalsFor(condition);
     out += "; " + std::to_string(*bound.runs) + " runs here would give " +
-           fixed(value.mean - half, 2) + " to " + fixed(value.mean + half, 2);
+           fixed(value.mean - half, d) + " to " + fixed(value.mean + half, d);
   }
   return out;
 }

@@ -10,6 +10,8 @@ namespace slamot::reproduce
 {
 namespace
 {
+constexpr double kEnough = 0.9;  // of the seeds have to have the number
+
 Status whole(bool isInside, bool isOutside)
 {
   if (isInside) return Status::kMet;
@@ -60,9 +62,12 @@ Check checkOf(const Claim::Part& part, const Measured& measured, const study::Pl
   if (!measured.cell.empty()) out.what += ", " + measured.cell;
   out.claimed = claimedText(part.condition);
   if (measured.value.count == 0) return out;
-  out.status = statusOf(measured.value, part.condition.bound);
-  out.measured = measuredText(measured.value, part.condition);
-  out.remark = remarkOf(measured.value, part.condition.bound, out.status);
+  // A ratio tells nothing of which is larger where its divisor may be 0 or less, and runs that have
+  // no number, of a target that was never found, may be the worst.
+  const bool isDecisive = measured.isByPositive && measured.value.count >= kEnough * measured.seeds;
+  out.status = isDecisive ? statusOf(measured.value, part.condition.bound) : Status::kOpen;
+  out.measured = measuredText(measured, part.condition);
+  out.remark = remarkOf(measured, part.condition, out.status);
   return out;
 }
 }  // namespace

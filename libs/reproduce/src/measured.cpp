@@ -100,20 +100,30 @@ std::optional<std::vector<Placed>> place(const std::vector<Term>& sum, const Pla
   return out;
 }
 
-math::MeanInterval valueOf(const std::vector<Placed>& sum, const std::vector<Placed>& divisor,
-                           const Plan& plan, const Outcome& outcome)
+void measureIn(const std::vector<Placed>& sum, const std::vector<Placed>& divisor, const Plan& plan,
+               const Outcome& outcome, Measured& out)
 {
   const std::string& metric = sum.front().term->metric;
   if (isRootOfMeans(metric))
   {
     const std::size_t k = *study::metricByName(metric);
-    if (divisor.empty()) return outcome.summary(plan, sum.front().group, k);
-    return outcome.ratio(plan, sum.front().group, divisor.front().group, k)
-        .value_or(math::MeanInterval{});
+    out.value = divisor.empty() ? outcome.summary(plan, sum.front().group, k)
+                                : outcome.ratio(plan, sum.front().group, divisor.front().group, k)
+                                      .value_or(math::MeanInterval{});
+    return;
   }
   const Values values = sumOf(sum, plan, outcome);
-  if (divisor.empty()) return study::statistics(values);
-  return study::pairedRatio(values, sumOf(divisor, plan, outcome)).value_or(math::MeanInterval{});
+  if (divisor.empty())
+  {
+    out.value = study::statistics(values);
+    return;
+  }
+  const Values by = sumOf(divisor, plan, outcome);
+  out.value = study::pairedRatio(values, by).value_or(math::MeanInterval{});
+  const math::MeanInterval ofBy = study::statistics(by);
+  const bool isNeverBelow =
+      std::all_of(by.begin(), by.end(), [](const auto& v) { return v.value_or(0) >= 0; });
+  out.isByPositive = isNeverBelow || (ofBy.count > 1 && ofBy.mean > ofBy.halfWidth95);
 }
 
 /// What a cell is in the axes that are not named.
@@ -164,7 +174,10 @@ std::vector<Measured> measure(const Condition& condition, const Plan& plan, cons
     if (!isAt(plan.cells[c], *named)) continue;
     const auto sum = place(condition.sum, plan, c), divisor = place(condition.divisor, plan, c);
     if (!sum || !divisor) return {};
-    out.push_back({openPart(plan, plan.cells[c], *named), valueOf(*sum, *divisor, plan, outcome)});
+    Measured& m = out.emplace_back();
+    m.cell = openPart(plan, plan.cells[c], *named);
+    m.seeds = plan.spec.seeds;
+    measureIn(*sum, *divisor, plan, outcome, m);
   }
   return out;
 }

@@ -20,6 +20,8 @@ struct Measured
 {
   std::string cell;  ///< what is said of axes that the condition leaves open; empty: none is
   math::MeanInterval value;  ///< count 0: no run has it
+  int seeds = 0;             ///< of the study
+  bool isByPositive = true;  ///< what it is divided by is above 0 in each run, or with its interval
 };
 
 /// One for each combination of the open axes; none if a method or a value is not in this study.

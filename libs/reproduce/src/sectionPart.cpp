@@ -3,7 +3,8 @@
 #include <slamot/study/tables.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cctype>
+#include <cstring>
 
 #include "components.h"
 
@@ -19,19 +20,20 @@ const auto& named(const List& list, const std::string& name)
   return *std::find_if(list.begin(), list.end(), [&](const auto& x) { return x.name == name; });
 }
 
-std::string fileName(const std::string& path)
-{
-  return std::filesystem::path(path).filename().string();
-}
-
+/// As a shell takes it for one word.
 std::string quoted(const std::string& word)
 {
-  return word.find_first_of(" ;()'") == std::string::npos ? word : "\"" + word + "\"";
+  const auto isPlain = [](char c)
+  { return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-./=,:+%@", c); };
+  if (std::all_of(word.begin(), word.end(), isPlain)) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
 }
 
 std::string commandOf(const Section& section)
 {
-  std::string out = "slamot study config-ini/" + fileName(section.studyPath);
+  std::string out = "slamot study " + quoted(section.shownPath);
   for (const std::string& s : section.set) out += " --set " + quoted(s);
   return out;
 }

@@ -1,6 +1,9 @@
 #include <slamot/results/TextFile.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -122,7 +125,12 @@ void appendFixed(std::string& text, double value, int decimals)
 
 void writeWhole(const std::string& path, const std::string& text)
 {
-  const std::string temporary = path + ".partial";
+  // Its own for each writer, also of other machines: no two can be within one file.
+  static std::atomic<unsigned> writes{0};
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  const std::string temporary = path + "." + host + "." + std::to_string(getpid()) + "." +
+                                std::to_string(writes++) + ".partial";
   std::ofstream file(temporary, std::ios::binary);
   file << text;
   file.close();

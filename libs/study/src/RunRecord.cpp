@@ -95,7 +95,9 @@ RecordState loadRecord(const std::string& folder, const Plan& plan, const Run& r
     if (json.at("hash") != plan.groups[run.group].hash || json.at("seed") != run.seed)
       return RecordState::kStale;
     record = fromJson(json);
-    return RecordState::kGood;
+    const bool isFailed = !record.error.empty(),
+               hasStatus = record.status >= 1 && record.status <= 6;
+    return isFailed == hasStatus ? RecordState::kGood : RecordState::kDamaged;
   }
   catch (const nlohmann::json::exception&)
   {

@@ -10,7 +10,7 @@ Settings Settings::from(core::Params& p, double glint)
   if (p.choice("likelihood", {"glint", "gaussian"}, "glint") == "gaussian") s.targetLaw = nullptr;
   s.known = p.choice("association", {"known", "nn"}, "nn") == "known";
   s.places = p.choice("observation", {"polar", "position"}, "polar") == "position";
-  s.noiseScale = p.positive("noise_scale", 1.0);
+  s.noiseScale = p.inRange("noise_scale", 1e-6, 1e6, 1.0);
   return s;
 }
 

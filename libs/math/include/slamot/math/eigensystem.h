@@ -17,7 +17,8 @@ struct Eigensystem
 template <int N>
 [[nodiscard]] Eigensystem<N> eigensystem(const Eigen::Matrix<double, N, N>& m);
 
-/// What is left of a symmetric matrix, N as above, when its negative eigenvalues are zero.
+/// What is left of a symmetric matrix, when its negative eigenvalues are zero; N of
+/// 4 and 6.
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, N> withoutNegative(const Eigen::Matrix<double, N, N>& m);
 }  // namespace slamot::math

@@ -49,6 +49,7 @@ struct Section
   std::string title;                ///< heading on the page
   std::string text;                 ///< below the heading
   std::string studyPath;            ///< empty: nothing is run
+  std::string shownPath;            ///< the same for a reader: does not depend on the machine
   std::vector<std::string> set;     ///< what is changed in the study, as by --set
   bool isLeftOut = false;           ///< of a quick reproduction
   study::StudySpec study;           ///< with these changes, if it is run

@@ -12,6 +12,7 @@ namespace slamot::reproduce
 struct StudyRun
 {
   std::string folder;                 ///< within that of the reproduction
+  std::string path;                   ///< of its file
   std::vector<std::string> set;       ///< what its sections change in the study, as by --set
   std::unique_ptr<study::Plan> plan;  ///< its cells and runs
   study::Outcome outcome;             ///< once collected

@@ -44,7 +44,8 @@ struct Judgement
 };
 
 /// Judges a claim by its study's records; nothing else enters the verdict.  All conditions met: it
-/// holds; none met, and none open: it does not hold; else it holds in part.
+/// holds; none met, and none open: it does not hold; else it holds in part.  Open is also what
+/// fewer than nine of ten seeds have a number for, and a ratio whose divisor may be 0 or less.
 /// \param plan, outcome of its study; null: it was not run
 [[nodiscard]] Judgement judge(const Claim& claim, const study::Plan* plan,
                               const study::Outcome* outcome);
