@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sameTime.h"
+
 namespace slamot::eval
 {
-namespace
-{
-// Times come from 100 ns ticks on one side and from text on the other.
-constexpr double kSameTime = 2e-6;
-}  // namespace
-
 std::optional<TimedPose> Trajectory::at(double time, double maxGap) const
 {
   const auto earlier = [](const TimedPose& p, double t) { return p.time < t; };

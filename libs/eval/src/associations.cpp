@@ -3,15 +3,13 @@
 #include <set>
 
 #include "poseErrors.h"
+#include "sameTime.h"
 
 namespace slamot::eval
 {
 namespace
 {
 using Outcome = core::Pairing::Outcome;
-
-// Times come from 100 ns ticks on one side and from text on the other.
-constexpr double kSameTime = 2e-6;
 
 /// Which landmark each sighting truly was of: as the truth has it, else as the sensor said.
 class TrueIds

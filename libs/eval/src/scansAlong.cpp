@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "movedOn.h"
+#include "sameTime.h"
 
 namespace slamot::eval
 {
 namespace
 {
-constexpr double kSameTime = 2e-6;  // [s]: as a trajectory's
 
 /// The path's own row at a time, or the last one before it.
 std::size_t rowAt(const Record& path, double time)

@@ -1,7 +1,8 @@
+#include <slamot/math/eigensystem.h>
+#include <slamot/math/gaussian.h>
 #include <slamot/math/intersection.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
@@ -59,14 +60,14 @@ struct Pencil
     BlockMatrix whitened = llt.matrixL().solve(BlockMatrix(A));
     whitened = llt.matrixL().solve(BlockMatrix(whitened.transpose()));
     const BlockMatrix symmetric = 0.5 * (whitened + whitened.transpose());
-    const Eigen::SelfAdjointEigenSolver<BlockMatrix> eigen(symmetric);
-    require(eigen.info() == Eigen::Success && eigen.eigenvalues().allFinite(),
-            "a covariance is badly scaled");
-    lambda = eigen.eigenvalues();
+    require(symmetric.allFinite(), "a covariance is badly scaled");
+    const auto eigen = eigensystem<Eigen::Dynamic>(symmetric);
+    require(eigen.values.allFinite(), "a covariance is badly scaled");
+    lambda = eigen.values;
     require(lambda.minCoeff() >= -kRounding * (1 + lambda.maxCoeff()),
             "a covariance is not positive semidefinite");
     lambda = lambda.cwiseMax(0.0);
-    V = llt.matrixU().solve(BlockMatrix(eigen.eigenvectors()));
+    V = llt.matrixU().solve(BlockMatrix(eigen.vectors));
   }
 };
 
@@ -141,8 +142,7 @@ class Rule
   {
     const BlockMatrix whitened = pencil_.V.transpose() * BlockMatrix(independent) * pencil_.V;
     independent_ = 0.5 * (whitened + whitened.transpose());
-    const Eigen::SelfAdjointEigenSolver<BlockMatrix> eigen(independent_, Eigen::EigenvaluesOnly);
-    const auto& values = eigen.eigenvalues();
+    const Eigen::VectorXd values = eigensystem<Eigen::Dynamic>(independent_).values;
     require(values[0] >= -kRounding && values[values.size() - 1] <= 1 + kRounding,
             "the independent part is not one of the covariance");
   }
@@ -214,8 +214,7 @@ PaperBlock paperBlock(const ConstMatrix& A, const ConstVector& innovation, const
   const auto norm = [&infoA, &infoB](double w)
   {
     const BlockMatrix info = w * infoA + (1 - w) * infoB;
-    const Eigen::SelfAdjointEigenSolver<BlockMatrix> eigen(info, Eigen::EigenvaluesOnly);
-    return 1 / eigen.eigenvalues()[0];
+    return 1 / smallestEigenvalue(info);
   };
   PaperBlock out;
   if (omega)

@@ -8,7 +8,7 @@ namespace slamot::sim
 {
 namespace
 {
-constexpr int kTries = 10'000;
+constexpr int kMostDraws = 10'000;
 
 [[noreturn]] void noPlace(const Scenario& s, const std::string& key, const std::string& whose,
                           const std::string& mend)
@@ -47,7 +47,7 @@ Pose2D placeFacing(const Pose2D& target, const Scenario& s, const RobotSetup& ro
                    math::RandomStream& random)
 {
   const double distance = robot.motion.startDistance;
-  for (int i = 0; i < kTries; ++i)
+  for (int i = 0; i < kMostDraws; ++i)
   {
     const double a = random.uniform(-math::kPi, math::kPi);
     const Point2D at{target.x - distance * std::cos(a), target.y - distance * std::sin(a)};

@@ -2,13 +2,31 @@
 
 #include "sighting/inView.h"
 
-#include <Eigen/Cholesky>
 #include <limits>
 
 namespace slamot::filters::rbpf
 {
 namespace
 {
+/// eᵀ P⁻¹ e for a positive definite P, of which the lower triangle is read. Eigen's decomposition
+/// takes as long to build as all else here.
+template <int N>
+double squaredLength(Eigen::Matrix<double, N, 1> e, Eigen::Matrix<double, N, N> P)
+{
+  double sum = 0;
+  for (int k = 0; k < N; ++k)
+  {
+    sum += e[k] * e[k] / P(k, k);
+    for (int i = k + 1; i < N; ++i)  // what is left, given the coordinates before
+    {
+      const double factor = P(i, k) / P(k, k);
+      e[i] -= factor * e[k];
+      for (int j = k + 1; j <= i; ++j) P(i, j) -= factor * P(j, k);
+    }
+  }
+  return sum;
+}
+
 /// Squared Mahalanobis distance of two targets by the covariance of the lighter, grown by a floor:
 /// of place, velocity and what else moves on, so that targets that cross are far apart.
 template <class Motion>
@@ -27,8 +45,7 @@ double distance2(const typename Motion::State& heavy, const typename Motion::Sta
   const auto a = Motion::kinematics(heavy), b = Motion::kinematics(light);
   auto cov = (b.jacobian * light.P * b.jacobian.transpose()).eval();
   cov.diagonal().array() += floorVar;
-  const auto e = (a.value - b.value).eval();
-  return e.dot(cov.llt().solve(e));
+  return squaredLength((a.value - b.value).eval(), cov);
 }
 
 /// Weighted targets as one with their moments, taken about the first.
