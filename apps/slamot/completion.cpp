@@ -46,7 +46,7 @@ void addValues(const TypedLine& line, const CLI::Option& option, Completion& out
   for (const std::string& choice : kind.choices) out.words.emplace_back(choice, "");
   if (kind.name == "Section.key=value")
     addSettings(line, out);
-  else if (kind.choices.empty())
+  else
     addFiles(kind.name, out);
 }
 

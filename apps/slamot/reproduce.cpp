@@ -150,7 +150,7 @@ void addOptions(CLI::App& command, const std::shared_ptr<ReproduceCommand>& o)
       .add_option("name", o->name,
                   "All papers or one, by the name of its reproduce.NAME.ini; or such a file")
       ->required()
-      ->type_name("NAME:{all,rbpf-slamot,ekf-slamot-ci,fastslam-family,glint}");
+      ->type_name("NAME|PAPER.ini:{all,rbpf-slamot,ekf-slamot-ci,fastslam-family,glint}");
   command.add_flag("--quick", o->isQuick, "Few seeds and a part of the cells: minutes, not hours");
   command.add_option("--configs", o->configs, "Where reproduce.NAME.ini is (default config-ini)")
       ->type_name("DIR");

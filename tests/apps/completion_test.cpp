@@ -56,6 +56,8 @@ TEST(Completion, ProposesFilesByWhatAValueIsCalled)
   EXPECT_EQ(propose("run -p ''"), Words{":files\t*.so"});
   EXPECT_EQ(propose("run -o ''"), Words{":folders\t*"});
   EXPECT_EQ(propose("run --seed ''"), Words{});
+  EXPECT_EQ(propose("reproduce ''"), (Words{"all", "ekf-slamot-ci", "fastslam-family", "glint",
+                                            "rbpf-slamot", ":files\t*.ini"}));
 }
 
 TEST(Completion, ProposesAnOptionsFewValues)

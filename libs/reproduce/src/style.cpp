@@ -55,6 +55,7 @@ figure{overflow-x:auto}figure svg{min-width:38rem}.row figure svg,.maps figure s
 @media print{.badge{print-color-adjust:exact;-webkit-print-color-adjust:exact}.claim,.verdicts li{break-inside:avoid}
 .claim{background:none}.wide{overflow:visible}table{font-size:8pt;break-inside:auto}tr{break-inside:avoid}
 table .faint{font-size:7pt!important}td,th{white-space:normal!important}h2,h3,h3+p{break-after:avoid}
+figure{break-inside:avoid;margin:.5rem 0}figure svg{max-height:22cm}.maps figure svg,.row figure svg{max-height:10cm}
 .study td{padding:.15rem .4rem}}
 )";
 }  // namespace
