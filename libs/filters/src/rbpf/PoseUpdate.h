@@ -2,8 +2,6 @@
 
 #include "sighting/Sighting.h"
 
-#include <Eigen/Cholesky>
-
 namespace slamot::filters::rbpf
 {
 /// Collects what a scan says of a pose with prior N(x0, P0), all sightings linearised at x0, and
@@ -40,21 +38,7 @@ class PoseUpdate
     double logRoot;     ///< ln of that root's determinant
   };
   /// \param root a square root of the prior: P0 = root rootᵀ.
-  [[nodiscard]] Result solve(const Matrix3& root) const
-  {
-    // (P0⁻¹ + A)⁻¹ = L (I + Lᵀ A L)⁻¹ Lᵀ: symmetric and positive, however much A outweighs P0.
-    const Matrix3 M = Matrix3::Identity() + root.transpose() * information_ * root;
-    const Eigen::LLT<Matrix3> llt(M);
-    Result out;
-    out.root = llt.matrixL().solve(root.transpose()).transpose();
-    out.shift = out.root * (out.root.transpose() * vector_);
-    const Vector3 diagonal = llt.matrixLLT().diagonal();
-    out.logRoot = -std::log(diagonal.prod());
-    out.logGain = 0.5 * vector_.dot(out.shift) + out.logRoot;
-    out.whiteRoot = llt.matrixU().solve(Matrix3::Identity());
-    out.white = out.whiteRoot * (out.root.transpose() * vector_);
-    return out;
-  }
+  [[nodiscard]] Result solve(const Matrix3& root) const;
 
  private:
   Matrix3 information_ = Matrix3::Zero();

@@ -107,7 +107,7 @@ core::RobotAndTarget EngineOf<Motion>::jointMoments(std::size_t track) const
     const State s = moved<Motion>(p.shift, p.targets[track]);
     const auto k = Motion::kinematics(s);
     cov.template bottomRightCorner<kTarget, kTarget>() +=
-        weights_[i] * k.jacobian * s.P * k.jacobian.transpose();
+        weights_[i] * (k.jacobian * s.P * k.jacobian.transpose()).eval();
   }
   cov /= sum;
   if (fromScan_)
@@ -124,7 +124,8 @@ core::RobotAndTarget EngineOf<Motion>::jointMoments(std::size_t track) const
   out.mean = mean;
   out.cov = cov;
   const Matrix3 frame = bestMap_.frame.covAt(pose.x, pose.y);
-  const auto T = lever(out.mean.tail(kTarget), {pose.x, pose.y});
+  // Here and below sizes are told: products of unknown ones take a second each to build.
+  const Eigen::Matrix<double, kTarget, kRobot> T = lever(out.mean.tail(kTarget), {pose.x, pose.y});
   out.cov.template topRightCorner<kRobot, kTarget>() += frame * T.transpose();
   out.cov.template bottomRightCorner<kTarget, kTarget>() += T * frame * T.transpose();
   out.cov = out.cov.template selfadjointView<Eigen::Upper>();
@@ -140,7 +141,8 @@ CommonErrors EngineOf<Motion>::commonErrors(const core::RobotAndTarget& own,
   CommonErrors out;
   out.frame = bestMap_.frame.covAt(at.x, at.y);
   out.lever = lever(own.mean.tail(own.targetSize()), at);
-  out.target.setZero(own.targetSize(), own.targetSize());
+  Eigen::Matrix<double, kTarget, kTarget> target;
+  target.setZero();
   double sum = 0;
   for (std::size_t i = 0; track && i < particles_.size(); ++i)
   {
@@ -148,10 +150,13 @@ CommonErrors EngineOf<Motion>::commonErrors(const core::RobotAndTarget& own,
     const double weight = std::exp(particles_.m_particles[i].log_w);
     const State s = moved<Motion>(p.shift, p.targets[*track]);
     const auto J = Motion::kinematics(s).jacobian;
-    out.target += weight * J * s.P * J.transpose();
+    target += weight * (J * s.P * J.transpose()).eval();
     sum += weight;
   }
-  if (track) out.target /= sum;
+  if (track)
+    out.target = target / sum;
+  else
+    out.target.setZero(own.targetSize(), own.targetSize());
   return out;
 }
 
@@ -226,7 +231,7 @@ void EngineOf<Motion>::shiftParticle(Particle<State>& p, std::optional<std::size
   value[0] -= p.shift.x;
   value[1] -= p.shift.y;
   value = (R * value).eval();
-  const Eigen::Matrix<double, kTarget, kTarget> cov = R * fusion.target * R.transpose();
+  const Eigen::Matrix<double, kTarget, kTarget> own = fusion.target, cov = R * own * R.transpose();
   if constexpr (Motion::kAngle < 0)
   {
     s.x = value;
