@@ -22,28 +22,10 @@ class MapFrame
     point.cov += covAt(point.mean.x, point.mean.y).topLeftCorner<2, 2>();
   }
   /// What it adds to the covariance of a pose at (x, y).
-  [[nodiscard]] Matrix3 covAt(double x, double y) const
-  {
-    const Matrix3 T = lever(x, y);
-    return T * first_.cov * T.transpose();
-  }
-  void addTo(core::TargetEstimate& target) const
-  {
-    addTo(target.pose);
-    const Vector2 turned(-target.velocity[1], target.velocity[0]);
-    target.velocityCov += first_.cov(2, 2) * turned * turned.transpose();
-  }
+  [[nodiscard]] Matrix3 covAt(double x, double y) const;
+  void addTo(core::TargetEstimate& target) const;
 
  private:
-  /// Of a pose there, by the first pose.
-  [[nodiscard]] Matrix3 lever(double x, double y) const
-  {
-    Matrix3 T = Matrix3::Identity();
-    T(0, 2) = first_.mean.y - y;
-    T(1, 2) = x - first_.mean.x;
-    return T;
-  }
-
   Gaussian<Pose2D> first_;
 };
 }  // namespace slamot::filters::rbpf

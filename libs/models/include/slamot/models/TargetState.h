@@ -47,12 +47,8 @@ struct TargetTransition
                     N>::Identity();  ///< derivative of the later state by the earlier one
   Eigen::Matrix<double, N, N> Q = Eigen::Matrix<double, N, N>::Zero();  ///< what is added meanwhile
 
-  /// Moves a covariance on; it comes out symmetric.
-  void applyTo(Eigen::Matrix<double, N, N>& P) const
-  {
-    P = (F * P * F.transpose() + Q).eval();
-    P = (0.5 * (P + P.transpose())).eval();
-  }
+  /// Moves a covariance on; it comes out symmetric.  Built once: N is 4, 5 or 6.
+  void applyTo(Eigen::Matrix<double, N, N>& P) const;
 };
 
 /// Place, velocity and, with K = 6, acceleration of a target in map axes, x before y.
