@@ -13,7 +13,7 @@ if(SLAMOT_BUILD_FUZZ)  # coverage for the fuzzer and checks, in all libraries
   add_link_options(-fsanitize=fuzzer-no-link,address,undefined)
 endif()
 
-# GCC tidies up its memory less often: a tenth of the time to build what has many templates.
+# GCC tidies up its memory less often: saves 6 to 13% of the time to build what has many templates.
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=200>
                     $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 

@@ -11,7 +11,6 @@ namespace slamot::eval
 {
 namespace
 {
-
 /// The path's own row at a time, or the last one before it.
 std::size_t rowAt(const Record& path, double time)
 {

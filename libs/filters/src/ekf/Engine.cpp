@@ -65,6 +65,7 @@ core::Update EngineOf<Motion>::take(int robot, const core::Step& step,
     takeScan(belief_.robot(robot), step, landmarks, out.pairings);
     out.diagnostics.close = static_cast<int>(std::count_if(rows_.begin(), rows_.end(), isClose));
   }
+  // First: a target that is NaN would be dropped, and nobody would know.
   if (!belief_.x().allFinite() || !belief_.P().diagonal().allFinite()) failOverflow();
   if (step.blobs) dropLost(step.time);
   out.estimate = estimate(robot);

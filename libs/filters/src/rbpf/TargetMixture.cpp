@@ -8,8 +8,8 @@ namespace slamot::filters::rbpf
 {
 namespace
 {
-/// eᵀ P⁻¹ e for a positive definite P, of which the lower triangle is read. Eigen's decomposition
-/// takes as long to build as all else here.
+/// eᵀ P⁻¹ e for a positive definite P, of which the lower triangle is read. Eigen's decompositions
+/// take seconds to build.
 template <int N>
 double squaredLength(Eigen::Matrix<double, N, 1> e, Eigen::Matrix<double, N, N> P)
 {
