@@ -5,10 +5,13 @@
 #include <slamot/window/LiveView.h>
 
 #include <X11/Xlib.h>
+#include <stdlib.h>
 
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 
 #include SLAMOT_SCENE_HEADER
@@ -38,14 +41,35 @@ void requireDisplay()
   XCloseDisplay(display);
 }
 
+::mrpt::gui::CDisplayWindow3D* openWindow(const std::string& title)
+{
+  requireDisplay();
+  setenv("MRPT_WXSUBSYS_TIMEOUT_MS", "60000", 0);  // a loaded machine needs more than MRPT's 5 s
+  return new ::mrpt::gui::CDisplayWindow3D(title, kWidth, kHeight);
+}
+
+/// Leaves the window to MRPT's thread, and has the program end without the other handlers of its
+/// exit.  That thread still works on a window after isOpen() is false; and at the exit MRPT writes
+/// to its queue of requests after it has freed it, if that thread has not ended by then (2.5.8:
+/// valgrind shows it, and one run in thousands ends as "corrupted double-linked list").
+struct LeaveToMrpt
+{
+  void operator()(const ::mrpt::gui::CDisplayWindow3D*) const
+  {
+    const auto end = [](int status, void*)
+    {
+      std::fflush(nullptr);
+      std::_Exit(status);
+    };
+    on_exit(end, nullptr);  // last registered, first called
+  }
+};
+
 class Window3D : public LiveView
 {
  public:
   Window3D(const std::string& title, const core::Filter& filter)
-      : filter_(filter),
-        scene_(title),
-        window_((requireDisplay(),
-                 ::mrpt::gui::CDisplayWindow3D::Create("slamot: " + title, kWidth, kHeight)))
+      : filter_(filter), scene_(title), window_(openWindow("slamot: " + title))
   {
     if (!window_->isOpen())
       throw core::Error(core::ExitStatus::kConfig, "command line --view",
@@ -110,7 +134,7 @@ class Window3D : public LiveView
 
   const core::Filter& filter_;
   mrpt::LiveScene scene_;
-  ::mrpt::gui::CDisplayWindow3D::Ptr window_;
+  std::unique_ptr<::mrpt::gui::CDisplayWindow3D, LeaveToMrpt> window_;
   Clock::time_point drawn_;
   std::optional<Aim> aimed_;  // as it was left
   bool isUsers_ = false;
