@@ -33,7 +33,7 @@ extern "C"
     if (std::getenv("HELD_BY") == nullptr)
     {
       std::fputs("a window goes slowly\n", stderr);
-      wait(300);
+      wait(5000);
     }
     return real();
   }

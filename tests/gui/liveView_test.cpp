@@ -42,14 +42,16 @@ class HeldRun
   std::unique_ptr<Process> run_;
 };
 
-/// As its user does.  A window may not take keys yet: until it is gone.
+/// As its user does.  A window may not take keys yet: until it is gone; but not again while it
+/// goes, which MRPT does not expect.
 void close(Screen& screen, Process& run)
 {
   const std::string visible = "search --onlyvisible --name '^slamot'";
+  const auto isGone = [&] { return run.hasEnded() || !screen.act(visible); };
   const auto gone = [&]
   {
     screen.act(visible + " windowfocus key alt+F4");
-    return run.hasEnded() || !screen.act(visible);
+    return test::comes(isGone, 3);
   };
   EXPECT_TRUE(test::comes(gone, 60));
 }
