@@ -51,7 +51,7 @@ void requireDisplay()
 /// Leaves the window to MRPT's thread, and has the program end without the other handlers of its
 /// exit.  That thread still works on a window after isOpen() is false; and at the exit MRPT writes
 /// to its queue of requests after it has freed it, if that thread has not ended by then (2.5.8:
-/// valgrind shows it, and one run in thousands ends as "corrupted double-linked list").
+/// valgrind shows it; a run has ended as "corrupted double-linked list").
 struct LeaveToMrpt
 {
   void operator()(const ::mrpt::gui::CDisplayWindow3D*) const
